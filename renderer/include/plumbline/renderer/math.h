@@ -1,0 +1,157 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <type_traits>
+
+/// Vectors, colours, shading frames and scalar helpers, templated over the scalar so that one formula
+/// runs in float (rendering), double, quad precision and autodiff types. Functions of <cmath> are
+/// found by argument-dependent lookup: write `using std::sqrt; sqrt(x)`, or call the helpers below.
+namespace plumbline::renderer {
+
+template <class T>
+inline constexpr bool is_builtin_float = std::is_floating_point_v<T>;
+
+/// π in the scalar's own precision. (std::numbers has no variable for class types.)
+template <class T>
+constexpr T pi() {
+  if constexpr (is_builtin_float<T>) {
+    return std::numbers::pi_v<T>;
+  } else {
+    // 36 digits: enough for quad (34), and exact to rounding for autodiff over double.
+    return T(3.14159265358979323846264338327950288L);
+  }
+}
+
+template <class T>
+T sqr(const T& x) {
+  return x * x;
+}
+
+/// sqrt(max(x, 0)): the clamp guards against rounding below zero only, never against a wrong formula.
+template <class T>
+T safe_sqrt(const T& x) {
+  using std::sqrt;
+  return x > T(0) ? T(sqrt(x)) : T(0);
+}
+
+template <class T>
+struct Vec2 {
+  T x{}, y{};
+};
+
+template <class T>
+struct Vec3 {
+  T x{}, y{}, z{};
+
+  Vec3& operator+=(const Vec3& b) { return *this = *this + b; }
+
+  friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+  friend Vec3 operator*(const Vec3& a, const T& s) { return {a.x * s, a.y * s, a.z * s}; }
+  friend Vec3 operator*(const T& s, const Vec3& a) { return a * s; }
+  friend Vec3 operator/(const Vec3& a, const T& s) { return {a.x / s, a.y / s, a.z / s}; }
+};
+
+template <class To, class From>
+Vec3<To> vec_cast(const Vec3<From>& v) {
+  return {static_cast<To>(v.x), static_cast<To>(v.y), static_cast<To>(v.z)};
+}
+
+template <class T>
+T dot(const Vec3<T>& a, const Vec3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class T>
+Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class T>
+T length_squared(const Vec3<T>& a) {
+  return dot(a, a);
+}
+
+template <class T>
+T length(const Vec3<T>& a) {
+  using std::sqrt;
+  return sqrt(dot(a, a));
+}
+
+template <class T>
+Vec3<T> normalize(const Vec3<T>& a) {
+  return a / length(a);
+}
+
+/// Linear RGB, Rec. 709 primaries. The unit follows from the context: radiance, albedo, sample weight.
+template <class T>
+struct Rgb {
+  T r{}, g{}, b{};
+
+  Rgb& operator+=(const Rgb& o) { return *this = *this + o; }
+
+  friend Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+  friend Rgb operator*(const Rgb& a, const Rgb& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+  friend Rgb operator*(const Rgb& a, const T& s) { return {a.r * s, a.g * s, a.b * s}; }
+  friend Rgb operator*(const T& s, const Rgb& a) { return a * s; }
+  friend Rgb operator/(const Rgb& a, const T& s) { return {a.r / s, a.g / s, a.b / s}; }
+  friend bool operator==(const Rgb&, const Rgb&) = default;
+};
+
+template <class To, class From>
+Rgb<To> rgb_cast(const Rgb<From>& c) {
+  return {static_cast<To>(c.r), static_cast<To>(c.g), static_cast<To>(c.b)};
+}
+
+template <class T>
+T max_component(const Rgb<T>& c) {
+  return std::max({c.r, c.g, c.b});
+}
+
+template <class T>
+bool is_black(const Rgb<T>& c) {
+  return c.r == T(0) && c.g == T(0) && c.b == T(0);
+}
+
+/// Rec. 709 luminance, the weights that the comparison scenes are defined with.
+template <class T>
+T luminance(const Rgb<T>& c) {
+  return T(0.2126) * c.r + T(0.7152) * c.g + T(0.0722) * c.b;
+}
+
+/// Orthonormal basis around a unit normal; in the local frame z is the normal.
+///
+/// @source Duff et al. 2017 (JCGT 6:1), Listing 3: branch on the sign of z only, no cancellation
+template <class T>
+struct Frame {
+  Vec3<T> tangent, bitangent, normal;
+
+  explicit Frame(const Vec3<T>& n) : normal(n) {
+    const T sign = n.z >= T(0) ? T(1) : T(-1);
+    const T a = T(-1) / (sign + n.z);
+    const T b = n.x * n.y * a;
+    tangent = {T(1) + sign * n.x * n.x * a, sign * b, -sign * n.x};
+    bitangent = {b, sign + n.y * n.y * a, -n.y};
+  }
+
+  Vec3<T> to_local(const Vec3<T>& v) const {
+    return {dot(v, tangent), dot(v, bitangent), dot(v, normal)};
+  }
+  Vec3<T> to_world(const Vec3<T>& v) const {
+    return tangent * v.x + bitangent * v.y + normal * v.z;
+  }
+};
+
+using Vec2f = Vec2<float>;
+using Vec3f = Vec3<float>;
+using Vec3d = Vec3<double>;
+using Rgbf = Rgb<float>;
+using Rgbd = Rgb<double>;
+
+}  // namespace plumbline::renderer

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <plumbline/renderer/bsdf/bsdf.h>
+#include <plumbline/renderer/math.h>
+
+/// What a scene file says, in double and in world space: the parser's output and the input of `Scene`.
+namespace plumbline::renderer {
+
+/// A mistake of the user: in a file, an argument, a parameter. `what()` is "file:line: what and why"
+/// where there is a file. The command turns it into exit code 2.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Normals point outwards, or inwards with `flip_normals`. The front is where the normal points.
+struct SphereShape {
+  Vec3d center;
+  double radius = 1;  ///< [m], > 0 and finite
+  bool flip_normals = false;
+};
+
+/// Parallelogram origin + s·edge_u + t·edge_v, (s, t) in [0,1]²; front side along edge_u × edge_v,
+/// or against it with `flip_normals`.
+struct RectangleShape {
+  Vec3d origin, edge_u, edge_v;  ///< edges perpendicular (the loader refuses shear)
+  bool flip_normals = false;
+};
+
+/// Flat disk; front side along `normal` (flips are already applied).
+struct DiskShape {
+  Vec3d center;
+  Vec3d normal;       ///< unit
+  double radius = 1;  ///< [m]
+};
+
+/// Triangles with geometric normals: front side along (v1 − v0) × (v2 − v0), or against it with
+/// `flip_normals`.
+struct MeshShape {
+  std::vector<Vec3d> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`, in range
+  bool flip_normals = false;
+};
+
+struct ShapeDescription {
+  std::variant<SphereShape, RectangleShape, DiskShape, MeshShape> geometry;
+  std::uint32_t bsdf = 0;        ///< index into SceneDescription::bsdfs
+  std::optional<Rgbd> radiance;  ///< one-sided emission from the front side [W/(m² sr)]
+};
+
+/// Pinhole camera as in Mitsuba 3: looks along +z of its own frame, +y up, +x to the *left* of the
+/// image.
+struct CameraDescription {
+  Vec3d origin;
+  Vec3d left, up, forward;     ///< unit, world space
+  double tan_half_fov_x = 1;   ///< of the horizontal field of view
+  int width = 256, height = 256;
+};
+
+/// `depth` counts as in Mitsuba 3: 1 is directly visible emission, 2 adds direct light, −1 is unlimited.
+struct IntegratorDescription {
+  int max_depth = -1;
+  int rr_depth = 5;  ///< Russian roulette from this depth on (Mitsuba's default)
+};
+
+struct SceneDescription {
+  std::filesystem::path file;
+  std::map<std::string, std::string> parameters;  ///< every <default> with the value in force
+  CameraDescription camera;
+  IntegratorDescription integrator;
+  int samples_per_pixel = 16;
+  std::vector<ShapeDescription> shapes;
+  std::vector<Bsdf> bsdfs;
+  std::optional<Rgbd> environment;  ///< constant environment radiance [W/(m² sr)]
+};
+
+}  // namespace plumbline::renderer
