@@ -8,9 +8,10 @@
 #include <numbers>
 #include <type_traits>
 
-/// Vectors, colours, shading frames and scalar helpers, templated over the scalar so that one formula
-/// runs in float (rendering), double, quad precision and autodiff types. Functions of <cmath> are
-/// found by argument-dependent lookup: write `using std::sqrt; sqrt(x)`, or call the helpers below.
+/// Vectors, colours, shading frames and scalar helpers, templated over the scalar so that one
+/// formula runs in float (rendering), double, quad precision and autodiff types. Functions of
+/// <cmath> are found by argument-dependent lookup: write `using std::sqrt; sqrt(x)`, or call the
+/// helpers below.
 namespace plumbline::renderer {
 
 template <class T>
@@ -32,7 +33,8 @@ T sqr(const T& x) {
   return x * x;
 }
 
-/// sqrt(max(x, 0)): the clamp guards against rounding below zero only, never against a wrong formula.
+/// sqrt(max(x, 0)): the clamp guards against rounding below zero only, never against a wrong
+/// formula.
 template <class T>
 T safe_sqrt(const T& x) {
   using std::sqrt;
@@ -89,18 +91,19 @@ Vec3<T> normalize(const Vec3<T>& a) {
   return a / length(a);
 }
 
-/// Linear RGB, Rec. 709 primaries. The unit follows from the context: radiance, albedo, sample weight.
+/// Linear RGB, Rec. 709 primaries. The unit follows from the context: radiance, albedo, sample
+/// weight.
 template <class T>
 struct Rgb {
   T r{}, g{}, b{};
 
-  Rgb& operator+=(const Rgb& o) { return *this = *this + o; }
+  Rgb& operator+=(const Rgb& c) { return *this = *this + c; }
 
-  friend Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-  friend Rgb operator*(const Rgb& a, const Rgb& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
-  friend Rgb operator*(const Rgb& a, const T& s) { return {a.r * s, a.g * s, a.b * s}; }
-  friend Rgb operator*(const T& s, const Rgb& a) { return a * s; }
-  friend Rgb operator/(const Rgb& a, const T& s) { return {a.r / s, a.g / s, a.b / s}; }
+  friend Rgb operator+(const Rgb& c, const Rgb& d) { return {c.r + d.r, c.g + d.g, c.b + d.b}; }
+  friend Rgb operator*(const Rgb& c, const Rgb& d) { return {c.r * d.r, c.g * d.g, c.b * d.b}; }
+  friend Rgb operator*(const Rgb& c, const T& s) { return {c.r * s, c.g * s, c.b * s}; }
+  friend Rgb operator*(const T& s, const Rgb& c) { return c * s; }
+  friend Rgb operator/(const Rgb& c, const T& s) { return {c.r / s, c.g / s, c.b / s}; }
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 

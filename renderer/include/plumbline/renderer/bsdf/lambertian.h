@@ -8,10 +8,11 @@
 
 namespace plumbline::renderer {
 
-/// Perfectly diffuse reflection on the side of the normal; black from behind, like Mitsuba's `diffuse`.
+/// Perfectly diffuse reflection on the side of the normal; black from behind, like Mitsuba's
+/// `diffuse`.
 ///
-/// f = albedo/π: the cosine-weighted integral over the hemisphere is π, so the directional albedo is
-/// `albedo` for every wo.
+/// f = albedo/π: the cosine-weighted integral over the hemisphere is π, so the directional albedo
+/// is `albedo` for every wo.
 struct Lambertian {
   Rgbf albedo;  ///< per channel, [0, 1]
 
@@ -30,7 +31,8 @@ struct Lambertian {
     if (!(wo.z > T(0))) return std::nullopt;
     const Vec3<T> wi = square_to_cosine_hemisphere(u);
     if (!(wi.z > T(0))) return std::nullopt;
-    // f cosθ / pdf_w = (albedo/π) cosθ / (cosθ/π): the cosine never enters, so nothing is lost at grazing.
+    // f cosθ / pdf_w = (albedo/π) cosθ / (cosθ/π): the cosine never enters, so nothing is lost at
+    // grazing.
     return BsdfSample<T>{wi, rgb_cast<T>(albedo), pdf(wo, wi), Lobe::diffuse};
   }
 

@@ -7,8 +7,8 @@ namespace plumbline::renderer {
 
 /// Cosine-weighted direction about +z: uniform disk by polar coordinates, lifted (Malley).
 ///
-/// Polar rather than concentric, because it is smooth everywhere but at one seam and one pole, so the
-/// Jacobian check holds on the whole square.
+/// Polar rather than concentric, because it is smooth everywhere but at one seam and one pole, so
+/// the Jacobian check holds on the whole square.
 /// @return unit vector, z ≥ 0
 template <class T>
 Vec3<T> square_to_cosine_hemisphere(const Vec2<T>& u) {

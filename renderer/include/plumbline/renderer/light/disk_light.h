@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include <plumbline/renderer/light/light_sample.h>
+#include <plumbline/renderer/sampling/warps.h>
+
+namespace plumbline::renderer {
+
+/// One-sided disk, sampled uniformly by area.
+struct DiskLight {
+  Vec3f center;
+  Vec3f normal;  ///< unit, emitting side
+  float radius;  ///< [m]
+  Rgbf radiance;
+
+  template <class T>
+  T area() const {
+    return pi<T>() * sqr(T(radius));
+  }
+
+  /// @param ref  reference point, world space
+  /// @param u    in [0, 1)²
+  /// @return     nullopt where ref lies behind
+  template <class T>
+  std::optional<LightSample<T>> sample(const Vec3<T>& ref, const Vec2<T>& u) const {
+    const Vec3<T> n = vec_cast<T>(normal);
+    const Vec2<T> d = square_to_uniform_disk(u);
+    const Vec3<T> offset = Frame<T>(n).to_world({T(d.x * T(radius)), T(d.y * T(radius)), T(0)});
+    return from_area_sample(vec_cast<T>(center) + offset - ref, n, T(T(1) / area<T>()),
+                            rgb_cast<T>(radiance));
+  }
+
+  /// @return pdf_w [1/sr] of `sample(ref, u)`; 0 where wi misses the front
+  template <class T>
+  T pdf(const Vec3<T>& ref, const Vec3<T>& wi) const {
+    const auto hit = hit_front_of_plane(ref, wi, vec_cast<T>(center), vec_cast<T>(normal));
+    if (!hit) return T(0);
+    const Vec3<T> p = ref + wi * hit->distance - vec_cast<T>(center);
+    if (!(length_squared(p) <= sqr(T(radius)))) return T(0);
+    return sqr(hit->distance) / (hit->cos_light * area<T>());
+  }
+};
+
+}  // namespace plumbline::renderer

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+
+#include <plumbline/renderer/math.h>
+
+namespace plumbline::renderer {
+
+/// One sampled direction towards a light.
+template <class T>
+struct LightSample {
+  Vec3<T> wi;       ///< unit, world space, from the reference point towards the light
+  T distance;       ///< to the light [m]; infinity for an environment
+  T cos_light;      ///< cosine at the light between its normal and −wi, > 0
+  Rgb<T> radiance;  ///< emitted towards the reference point [W/(m² sr)]
+  T pdf_w;          ///< [1/sr] at the reference point, the same value as pdf(ref, wi)
+};
+
+/// Turns a point sampled by area on a flat or curved one-sided emitter into a direction sample:
+/// pdf_w = pdf_a · d²/cosθ_light.
+///
+/// @param to_light  from the reference point to the sampled point
+/// @param normal    unit, of the emitting side there
+/// @param pdf_a     [1/m²]
+/// @return          nullopt where the reference point lies behind the emitter
+template <class T>
+std::optional<LightSample<T>> from_area_sample(const Vec3<T>& to_light, const Vec3<T>& normal,
+                                               const T& pdf_a, const Rgb<T>& radiance) {
+  using std::sqrt;
+  const T distance_squared = length_squared(to_light);
+  if (!(distance_squared > T(0))) return std::nullopt;
+  const T distance = sqrt(distance_squared);
+  const Vec3<T> wi = to_light / distance;
+  const T cos_light = -dot(normal, wi);
+  if (!(cos_light > T(0))) return std::nullopt;
+  return LightSample<T>{wi, distance, cos_light, radiance, T(pdf_a * distance_squared / cos_light)};
+}
+
+/// Where the ray ref + t·wi meets the front of a plane.
+template <class T>
+struct PlaneHit {
+  T distance, cos_light;
+};
+
+/// @return nullopt from behind, parallel to the plane, or for t ≤ 0
+template <class T>
+std::optional<PlaneHit<T>> hit_front_of_plane(const Vec3<T>& ref, const Vec3<T>& wi,
+                                              const Vec3<T>& point, const Vec3<T>& normal) {
+  const T cos_light = -dot(normal, wi);
+  if (!(cos_light > T(0))) return std::nullopt;
+  const T height = dot(normal, ref - point);
+  if (!(height > T(0))) return std::nullopt;
+  return PlaneHit<T>{T(height / cos_light), cos_light};
+}
+
+}  // namespace plumbline::renderer

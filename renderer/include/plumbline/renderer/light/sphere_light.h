@@ -1,0 +1,121 @@
+#pragma once
+
+#include <optional>
+
+#include <plumbline/renderer/light/light_sample.h>
+#include <plumbline/renderer/sampling/warps.h>
+
+namespace plumbline::renderer {
+
+/// A sphere that emits from its outside, or with `inward` from its inside. From outside, directions
+/// are uniform in the cone that the sphere subtends; from inside, points are uniform by area.
+struct SphereLight {
+  Vec3f center;
+  float radius;  ///< [m]
+  bool inward;   ///< normals, and so emission, point to the centre
+  Rgbf radiance;
+
+  /// @param ref  reference point, world space
+  /// @param u    in [0, 1)²
+  /// @return     nullopt where ref is on the side that emits nothing
+  template <class T>
+  std::optional<LightSample<T>> sample(const Vec3<T>& ref, const Vec2<T>& u) const {
+    return inward ? sample_from_inside(ref, u) : sample_cone(ref, u);
+  }
+
+  /// @return pdf_w [1/sr] of `sample(ref, u)`; 0 where wi misses
+  template <class T>
+  T pdf(const Vec3<T>& ref, const Vec3<T>& wi) const {
+    return inward ? pdf_from_inside(ref, wi) : pdf_cone(ref, wi);
+  }
+
+ private:
+  /// The cone that the sphere subtends from a point outside.
+  template <class T>
+  struct Cone {
+    Vec3<T> axis;         // unit, towards the centre
+    T distance;           // to the centre
+    T gap;                // d² − R²
+    T sin2_max;           // R²/d²
+    T one_minus_cos_max;  // sin²/(1 + cos): 1 − cosθ would cancel for small cones
+  };
+
+  template <class T>
+  std::optional<Cone<T>> cone_from(const Vec3<T>& ref) const {
+    using std::sqrt;
+    const Vec3<T> to_center = vec_cast<T>(center) - ref;
+    const T r = T(radius);
+    const T d = length(to_center);
+    if (!(d > r)) return std::nullopt;
+    const T gap = (d - r) * (d + r);
+    const T cos_max = sqrt(gap) / d;
+    const T sin2_max = sqr(T(r / d));
+    return Cone<T>{to_center / d, d, gap, sin2_max, T(sin2_max / (T(1) + cos_max))};
+  }
+
+  template <class T>
+  std::optional<LightSample<T>> sample_cone(const Vec3<T>& ref, const Vec2<T>& u) const {
+    using std::cos, std::sin;
+    const auto cone = cone_from(ref);
+    if (!cone) return std::nullopt;
+    // h = 1 − cosθ is uniform in [0, 1 − cosθmax]; sin²θ = h (2 − h).
+    const T h = u.x * cone->one_minus_cos_max;
+    const T sin2 = h * (T(2) - h);
+    const T sin_theta = safe_sqrt(sin2);
+    const T cos_theta = T(1) - h;
+    const T phi = T(2) * pi<T>() * u.y;
+    const Vec3<T> wi = Frame<T>(cone->axis)
+                           .to_world({T(sin_theta * cos(phi)), T(sin_theta * sin(phi)), cos_theta});
+    // Half chord: distance from the closest approach to the sphere. The nearer root is written as
+    // (d² − R²)/(d cosθ + half chord), which does not cancel.
+    const T half_chord = safe_sqrt(T(sqr(T(radius)) - sqr(cone->distance) * sin2));
+    const T distance = cone->gap / (cone->distance * cos_theta + half_chord);
+    return LightSample<T>{wi, distance, T(half_chord / T(radius)), rgb_cast<T>(radiance),
+                          uniform_cone_pdf_w(*cone)};
+  }
+
+  template <class T>
+  static T uniform_cone_pdf_w(const Cone<T>& cone) {
+    return T(1) / (T(2) * pi<T>() * cone.one_minus_cos_max);
+  }
+
+  template <class T>
+  T pdf_cone(const Vec3<T>& ref, const Vec3<T>& wi) const {
+    const auto cone = cone_from(ref);
+    if (!cone || !(dot(wi, cone->axis) > T(0))) return T(0);
+    // sin²θ from the cross product: exact for small angles, where cosθ has no digits left.
+    return length_squared(cross(wi, cone->axis)) <= cone->sin2_max ? uniform_cone_pdf_w(*cone)
+                                                                   : T(0);
+  }
+
+  template <class T>
+  T pdf_a() const {
+    return T(1) / (T(4) * pi<T>() * sqr(T(radius)));
+  }
+
+  template <class T>
+  bool is_inside(const Vec3<T>& ref) const {
+    return length_squared(ref - vec_cast<T>(center)) < sqr(T(radius));
+  }
+
+  template <class T>
+  std::optional<LightSample<T>> sample_from_inside(const Vec3<T>& ref, const Vec2<T>& u) const {
+    if (!is_inside(ref)) return std::nullopt;
+    const Vec3<T> n = square_to_uniform_sphere(u);
+    const Vec3<T> point = vec_cast<T>(center) + n * T(radius);
+    return from_area_sample(point - ref, -n, pdf_a<T>(), rgb_cast<T>(radiance));
+  }
+
+  template <class T>
+  T pdf_from_inside(const Vec3<T>& ref, const Vec3<T>& wi) const {
+    if (!is_inside(ref)) return T(0);
+    // From inside the half chord is √(R² − |m|² sin²) and the far root −m·wi + half chord ≥ 0.
+    const Vec3<T> m = ref - vec_cast<T>(center);
+    const T half_chord = safe_sqrt(T(sqr(T(radius)) - length_squared(cross(m, wi))));
+    const T distance = half_chord - dot(m, wi);
+    const T cos_light = half_chord / T(radius);
+    return cos_light > T(0) ? T(pdf_a<T>() * sqr(distance) / cos_light) : T(0);
+  }
+};
+
+}  // namespace plumbline::renderer
