@@ -13,11 +13,12 @@
 #include <plumbline/renderer/bsdf/bsdf.h>
 #include <plumbline/renderer/math.h>
 
-/// What a scene file says, in double and in world space: the parser's output and the input of `Scene`.
+/// What a scene file says, in double and in world space: the parser's output and the input of
+/// `Scene`.
 namespace plumbline::renderer {
 
-/// A mistake of the user: in a file, an argument, a parameter. `what()` is "file:line: what and why"
-/// where there is a file. The command turns it into exit code 2.
+/// A mistake of the user: in a file, an argument, a parameter. `what()` is "file:line: what and
+/// why" where there is a file. The command turns it into exit code 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -62,12 +63,13 @@ struct ShapeDescription {
 /// image.
 struct CameraDescription {
   Vec3d origin;
-  Vec3d left, up, forward;     ///< unit, world space
-  double tan_half_fov_x = 1;   ///< of the horizontal field of view
+  Vec3d left, up, forward;    ///< unit, world space
+  double tan_half_fov_x = 1;  ///< of the horizontal field of view
   int width = 256, height = 256;
 };
 
-/// `depth` counts as in Mitsuba 3: 1 is directly visible emission, 2 adds direct light, −1 is unlimited.
+/// `depth` counts as in Mitsuba 3: 1 is directly visible emission, 2 adds direct light, −1 is
+/// unlimited.
 struct IntegratorDescription {
   int max_depth = -1;
   int rr_depth = 5;  ///< Russian roulette from this depth on (Mitsuba's default)

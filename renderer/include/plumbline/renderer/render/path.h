@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include <plumbline/renderer/render/strategy.h>
+#include <plumbline/renderer/sampling/pcg32.h>
+#include <plumbline/renderer/scene/scene.h>
+
+namespace plumbline::renderer {
+
+struct PathOptions {
+  Strategy strategy = Strategy::mis;
+  Heuristic heuristic = Heuristic::power;
+  int max_depth =
+      -1;  ///< as in Mitsuba: 1 is directly visible emission, 2 adds direct light, −1 no limit
+  int rr_depth = 5;  ///< Russian roulette from this depth on, > 0; kNoRoulette turns it off
+};
+
+inline constexpr int kNoRoulette = std::numeric_limits<int>::max();
+
+/// What a set of paths cost and lost.
+struct PathCounters {
+  std::uint64_t camera_rays = 0;
+  std::uint64_t bounce_rays = 0;  ///< rays that look for the nearest surface after the first vertex
+  std::uint64_t shadow_rays = 0;
+  std::uint64_t rejected = 0;  ///< samples that a BSDF or light could not make
+
+  PathCounters& operator+=(const PathCounters& other);
+};
+
+/// One-sample estimate of the radiance that arrives along a camera ray.
+///
+/// @param ray  from Camera::ray
+/// @return     RGB radiance [W/(m² sr)]; its expected value is the truth (truncated at max_depth)
+/// for
+///             every strategy with sufficient support
+/// @source     Veach 1997, Section 9.2 (multi-sample and one-sample model); RayON's loop for the
+/// order
+Rgbf estimate_radiance(const Scene& scene, const PathOptions& options, Ray ray, Pcg32& random,
+                       PathCounters& counters);
+
+}  // namespace plumbline::renderer

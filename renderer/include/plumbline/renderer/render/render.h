@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <plumbline/renderer/render/film.h>
+#include <plumbline/renderer/render/path.h>
+#include <plumbline/renderer/scene/scene.h>
+
+namespace plumbline::renderer {
+
+/// When to stop and how to start. Sampling ends at whichever limit is reached first.
+struct RenderOptions {
+  PathOptions path;
+  std::uint32_t samples_per_pixel = 16;  ///< upper limit, ≥ 1
+  double seconds = 0;                    ///< time limit [s]; 0: none
+  double relative_error = 0;             ///< stop at this Film::relative_error(); 0: none
+  std::uint64_t seed = 0;
+  int threads = 0;  ///< 0: all cores. The image does not depend on it.
+  /// Called now and then from one thread with the fraction done, in [0, 1]. May be empty.
+  std::function<void(double)> progress;
+};
+
+struct RenderResult {
+  Film film;
+  PathCounters counters;
+  std::uint32_t samples_per_pixel = 0;  ///< drawn
+  double seconds = 0;
+};
+
+/// Renders an image. The same scene, path options, seed and sample count give the same bits,
+/// whatever the number of threads or passes.
+///
+/// @throws InputError for an infinite path depth without Russian roulette, which may never end
+RenderResult render(const Scene& scene, const RenderOptions& options);
+
+}  // namespace plumbline::renderer

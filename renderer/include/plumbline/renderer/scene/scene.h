@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <plumbline/renderer/bsdf/bsdf.h>
+#include <plumbline/renderer/light/light.h>
+#include <plumbline/renderer/math.h>
+#include <plumbline/renderer/scene/camera.h>
+#include <plumbline/renderer/scene/description.h>
+#include <plumbline/renderer/scene/ray.h>
+
+namespace plumbline::renderer {
+
+inline constexpr std::uint32_t kNoLight = std::numeric_limits<std::uint32_t>::max();
+
+/// A point on a surface. Coordinates are relative to the scene's centre.
+struct SurfaceHit {
+  Vec3f position;       ///< on the surface to the last bit that float has
+  Vec3f normal;         ///< unit, of the front side
+  float offset;         ///< distance from the surface at which rays may start [m]
+  std::uint32_t bsdf;   ///< index for Scene::bsdf
+  std::uint32_t light;  ///< index into Scene::lights, or kNoLight
+
+  /// Where rays that leave towards the side of `w` start.
+  Vec3f origin_towards(const Vec3f& w) const {
+    return position + normal * (dot(normal, w) >= 0 ? offset : -offset);
+  }
+};
+
+/// A scene ready for rays: Embree's acceleration structure, BSDFs, lights and the camera.
+///
+/// All geometry is moved in double so that the centre of its bounding box is the origin, and only
+/// then rounded to float: a scene at 1e5 keeps the digits that it would otherwise lose.
+class Scene {
+ public:
+  /// @throws InputError if the description holds no camera-visible geometry that Embree can build
+  explicit Scene(const SceneDescription& description);
+  ~Scene();
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+
+  /// @return nearest surface along the ray, from either side; nullopt where it escapes
+  std::optional<SurfaceHit> intersect(const Ray& ray) const;
+
+  /// @return whether anything lies on the ray before t_max
+  bool occluded(const Ray& ray) const;
+
+  const Bsdf& bsdf(std::uint32_t index) const { return bsdfs_[index]; }
+  const LightSet& lights() const { return lights_; }
+  /// Index of the environment in lights(), or kNoLight.
+  std::uint32_t environment() const { return environment_; }
+  const Camera& camera() const { return camera_; }
+  std::size_t shape_count() const { return shape_count_; }
+
+ private:
+  struct Geometry;
+
+  std::unique_ptr<Geometry> geometry_;
+  std::vector<Bsdf> bsdfs_;
+  LightSet lights_;
+  std::uint32_t environment_ = kNoLight;
+  Camera camera_;
+  std::size_t shape_count_ = 0;
+};
+
+/// How far from a surface point rays must start so that they neither hit the surface again nor skip
+/// what lies close before it: 16 units of float rounding of `magnitude`, the largest coordinate
+/// that enters the point's own rounding error.
+inline float ray_offset(float magnitude) { return 16 * 0x1p-24f * magnitude; }
+
+/// Largest absolute coordinate.
+inline float max_norm(const Vec3f& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+}  // namespace plumbline::renderer
