@@ -31,6 +31,8 @@ struct SurfaceHit {
   }
 };
 
+class SceneGeometry;
+
 /// A scene ready for rays: Embree's acceleration structure, BSDFs, lights and the camera.
 ///
 /// All geometry is moved in double so that the centre of its bounding box is the origin, and only
@@ -57,9 +59,7 @@ class Scene {
   std::size_t shape_count() const { return shape_count_; }
 
  private:
-  struct Geometry;
-
-  std::unique_ptr<Geometry> geometry_;
+  std::unique_ptr<SceneGeometry> geometry_;
   std::vector<Bsdf> bsdfs_;
   LightSet lights_;
   std::uint32_t environment_ = kNoLight;

@@ -1,0 +1,192 @@
+#include <plumbline/renderer/render/path.h>
+
+#include <cmath>
+#include <optional>
+
+namespace plumbline::renderer {
+namespace {
+
+/// The techniques for direct light at one vertex. `n_…` is the expected number of samples (1 where
+/// the strategy always draws it, 1/2 where it does so half the time, 0 where never), which is what
+/// enters the MIS weight; `draw_…` says what is drawn this time.
+struct Techniques {
+  float n_bsdf = 0, n_light = 0;
+  bool draw_bsdf = false, draw_light = false, draw_uniform = false;
+};
+
+Techniques choose_techniques(Strategy strategy, Pcg32& random) {
+  switch (strategy) {
+    case Strategy::bsdf:
+      return {.n_bsdf = 1, .draw_bsdf = true};
+    case Strategy::light:
+      return {.n_light = 1, .draw_light = true};
+    case Strategy::uniform:
+      return {.draw_uniform = true};
+    case Strategy::mis:
+      return {.n_bsdf = 1, .n_light = 1, .draw_bsdf = true, .draw_light = true};
+    case Strategy::one_sample: {
+      const bool light = random.next_1d() < 0.5f;
+      return {.n_bsdf = 0.5f, .n_light = 0.5f, .draw_bsdf = !light, .draw_light = light};
+    }
+  }
+  return {};
+}
+
+/// A surface point that light is gathered at.
+struct Vertex {
+  const SurfaceHit& hit;
+  const Bsdf& bsdf;
+  Frame<float> frame;
+  Vec3f wo;   // local
+  Vec3f ref;  // where rays towards lights start, and what light densities refer to
+};
+
+/// What the weight of emission at the end of a BSDF ray depends on: the vertex behind it.
+struct Arrival {
+  Techniques techniques;
+  float pdf_w;  // of the BSDF sample
+  Vec3f ref;
+};
+
+class Path {
+ public:
+  Path(const Scene& scene, const PathOptions& options, Pcg32& random, PathCounters& counters)
+      : scene_(scene), options_(options), random_(random), counters_(counters) {}
+
+  Rgbf trace(Ray ray) {
+    Rgbf result;
+    Rgbf throughput{1, 1, 1};
+    std::optional<Arrival> arrival;  // none for the camera ray: its emission counts fully
+    for (int depth = 1; within(depth); ++depth) {
+      ++(arrival ? counters_.bounce_rays : counters_.camera_rays);
+      const std::optional<SurfaceHit> hit = scene_.intersect(ray);
+      result += throughput * emission(hit, ray.direction, arrival);
+      if (!hit || !within(depth + 1)) break;
+
+      const Vertex vertex = vertex_at(*hit, -ray.direction);
+      const Techniques techniques = choose_techniques(options_.strategy, random_);
+      if (techniques.draw_light) result += throughput * light_estimate(vertex, techniques);
+      if (techniques.draw_uniform) result += throughput * uniform_estimate(vertex);
+      if (!techniques.draw_bsdf && !within(depth + 2)) break;  // nothing left to find
+
+      const auto next = sample(vertex.bsdf, vertex.wo, random_.next_2d());
+      if (!next) {
+        ++counters_.rejected;
+        break;
+      }
+      throughput = throughput * next->weight;
+      if (is_black(throughput) || !survives_roulette(depth, throughput)) break;
+      const Vec3f direction = vertex.frame.to_world(next->wi);
+      arrival = Arrival{techniques, next->pdf_w, vertex.ref};
+      ray = {hit->origin_towards(direction), direction};
+    }
+    return result;
+  }
+
+ private:
+  bool within(int depth) const { return options_.max_depth < 0 || depth <= options_.max_depth; }
+
+  Vertex vertex_at(const SurfaceHit& hit, const Vec3f& wo) const {
+    const Frame<float> frame(hit.normal);
+    return {hit, scene_.bsdf(hit.bsdf), frame, frame.to_local(wo), hit.origin_towards(wo)};
+  }
+
+  /// The light that a ray ends on, if it shows its emitting side.
+  std::uint32_t light_seen(const std::optional<SurfaceHit>& hit, const Vec3f& direction) const {
+    if (!hit) return scene_.environment();
+    return dot(hit->normal, direction) < 0 ? hit->light : kNoLight;
+  }
+
+  /// Emission found by a ray, weighted against the light sample that could have found it.
+  Rgbf emission(const std::optional<SurfaceHit>& hit, const Vec3f& direction,
+                const std::optional<Arrival>& arrival) const {
+    const std::uint32_t light = light_seen(hit, direction);
+    if (light == kNoLight) return {};
+    const Rgbf radiance = renderer::radiance(scene_.lights()[light]);
+    return arrival ? radiance * bsdf_weight(*arrival, light, direction) : radiance;
+  }
+
+  float bsdf_weight(const Arrival& arrival, std::uint32_t light, const Vec3f& direction) const {
+    const Techniques& t = arrival.techniques;
+    if (!t.draw_bsdf) return 0;
+    const float pdf_light =
+        t.n_light > 0 ? scene_.lights().pdf(light, arrival.ref, direction) : 0.0f;
+    return mis_weight(options_.heuristic, t.n_bsdf * arrival.pdf_w, t.n_light * pdf_light) /
+           t.n_bsdf;
+  }
+
+  /// Direct light by one point on a light.
+  Rgbf light_estimate(const Vertex& vertex, const Techniques& t) {
+    const auto light = scene_.lights().sample(vertex.ref, random_.next_2d());
+    if (!light) {
+      ++counters_.rejected;
+      return {};
+    }
+    const Vec3f wi = vertex.frame.to_local(light->wi);
+    const Rgbf f = eval(vertex.bsdf, vertex.wo, wi);
+    if (is_black(f) || !is_visible(vertex, *light)) return {};
+    const float pdf_bsdf = t.n_bsdf > 0 ? pdf(vertex.bsdf, vertex.wo, wi) : 0.0f;
+    const float weight =
+        mis_weight(options_.heuristic, t.n_light * light->pdf_w, t.n_bsdf * pdf_bsdf) / t.n_light;
+    return f * light->radiance * (std::abs(wi.z) * weight / light->pdf_w);
+  }
+
+  bool is_visible(const Vertex& vertex, const LightSample<float>& light) {
+    ++counters_.shadow_rays;
+    Ray ray{vertex.hit.origin_towards(light.wi), light.wi};
+    if (std::isfinite(light.distance)) {
+      // Stop at the plane that lies one ray offset before the light, so that the light does not
+      // shadow itself; along the ray that is offset/cosθ.
+      const Vec3f end = vertex.ref + light.wi * light.distance;
+      ray.t_max = light.distance -
+                  ray_offset(std::max(max_norm(end), max_norm(vertex.ref))) / light.cos_light;
+      if (!(ray.t_max > 0)) return true;
+    }
+    return !scene_.occluded(ray);
+  }
+
+  /// Direct light by one direction uniform on the hemisphere that wo is in.
+  Rgbf uniform_estimate(const Vertex& vertex) {
+    Vec3f wi = square_to_uniform_hemisphere(random_.next_2d());
+    const float pdf_w = square_to_uniform_hemisphere_pdf_w(wi);
+    if (vertex.wo.z < 0) wi.z = -wi.z;
+    const Rgbf f = eval(vertex.bsdf, vertex.wo, wi);
+    if (is_black(f)) return {};
+    ++counters_.bounce_rays;
+    const Vec3f direction = vertex.frame.to_world(wi);
+    const auto hit = scene_.intersect({vertex.hit.origin_towards(direction), direction});
+    return f * emission(hit, direction, std::nullopt) * (std::abs(wi.z) / pdf_w);
+  }
+
+  /// Ends paths at random and scales the survivors up, so that the mean stays.
+  bool survives_roulette(int depth, Rgbf& throughput) {
+    if (depth < options_.rr_depth) return true;
+    // 0.95 as in Mitsuba: without a cap a path in a white closed room would never end.
+    const float survival = std::min(max_component(throughput), 0.95f);
+    if (!(random_.next_1d() < survival)) return false;
+    throughput = throughput / survival;
+    return true;
+  }
+
+  const Scene& scene_;
+  const PathOptions& options_;
+  Pcg32& random_;
+  PathCounters& counters_;
+};
+
+}  // namespace
+
+PathCounters& PathCounters::operator+=(const PathCounters& other) {
+  camera_rays += other.camera_rays;
+  bounce_rays += other.bounce_rays;
+  shadow_rays += other.shadow_rays;
+  rejected += other.rejected;
+  return *this;
+}
+
+Rgbf estimate_radiance(const Scene& scene, const PathOptions& options, Ray ray, Pcg32& random,
+                       PathCounters& counters) {
+  return Path(scene, options, random, counters).trace(ray);
+}
+
+}  // namespace plumbline::renderer

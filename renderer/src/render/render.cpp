@@ -1,0 +1,147 @@
+#include <plumbline/renderer/render/render.h>
+
+#include <oneapi/tbb/blocked_range2d.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace plumbline::renderer {
+namespace {
+
+/// Flush-to-zero and denormals-are-zero while in scope, as Embree asks for; render threads only.
+class FlushToZero {
+ public:
+#if defined(__SSE2__)
+  FlushToZero() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040u); }
+  ~FlushToZero() { _mm_setcsr(saved_); }
+
+ private:
+  unsigned saved_;
+#endif
+};
+
+/// Reports progress from whichever thread is free to, one at a time.
+class Progress {
+ public:
+  Progress(const std::function<void(double)>& report, std::uint64_t total)
+      : report_(report), total_(total) {}
+
+  void advance(std::uint64_t samples) {
+    const std::uint64_t done = done_.fetch_add(samples, std::memory_order_relaxed) + samples;
+    if (!report_) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (lock) report_(static_cast<double>(done) / static_cast<double>(total_));
+  }
+
+ private:
+  const std::function<void(double)>& report_;
+  std::uint64_t total_;
+  std::atomic<std::uint64_t> done_ = 0;
+  std::mutex mutex_;
+};
+
+class Renderer {
+ public:
+  Renderer(const Scene& scene, const RenderOptions& options)
+      : scene_(scene),
+        options_(options),
+        arena_(options.threads > 0 ? options.threads : oneapi::tbb::task_arena::automatic),
+        film_(scene.camera().width(), scene.camera().height()),
+        progress_(options.progress, film_.pixels().size() * options.samples_per_pixel) {}
+
+  RenderResult run() {
+    const auto start = std::chrono::steady_clock::now();
+    const auto elapsed = [&] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    std::uint32_t done = 0;
+    while (done < options_.samples_per_pixel) {
+      const std::uint32_t samples = next_pass(done, elapsed());
+      if (samples == 0) break;
+      render_pass(done, samples);
+      done += samples;
+      if (options_.relative_error > 0 && done > 1 &&
+          film_.relative_error() <= options_.relative_error) {
+        break;
+      }
+    }
+    RenderResult result{std::move(film_), {}, done, elapsed()};
+    for (const PathCounters& counters : counters_) result.counters += counters;
+    return result;
+  }
+
+ private:
+  /// Samples per pixel of the next pass: all at once without a limit to look at, else doubling,
+  /// with the last pass cut to the time that is left. 0 ends the render.
+  std::uint32_t next_pass(std::uint32_t done, double seconds) const {
+    const std::uint32_t left = options_.samples_per_pixel - done;
+    if (!(options_.seconds > 0) && !(options_.relative_error > 0)) return left;
+    if (done == 0) return 1;
+    double samples = std::min<double>(done, left);
+    if (options_.seconds > 0) {
+      samples = std::min(samples, (options_.seconds - seconds) / seconds * done);
+    }
+    return samples >= 1 ? static_cast<std::uint32_t>(samples) : 0;
+  }
+
+  void render_pass(std::uint32_t first_sample, std::uint32_t samples) {
+    using Range = oneapi::tbb::blocked_range2d<int>;
+    const Range tiles(0, film_.height(), kTileSize, 0, film_.width(), kTileSize);
+    arena_.execute([&] {
+      oneapi::tbb::parallel_for(tiles, [&](const Range& tile) {
+        const FlushToZero flush_to_zero;
+        PathCounters& counters = counters_.local();
+        for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
+          for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
+            render_pixel(x, y, first_sample, samples, counters);
+          }
+        }
+        progress_.advance(tile.rows().size() * tile.cols().size() * samples);
+      });
+    });
+  }
+
+  void render_pixel(int x, int y, std::uint32_t first_sample, std::uint32_t samples,
+                    PathCounters& counters) {
+    PixelMoments& pixel = film_.at(x, y);
+    const auto index = static_cast<std::uint64_t>(&pixel - film_.pixels().data());
+    for (std::uint32_t s = first_sample; s < first_sample + samples; ++s) {
+      Pcg32 random(options_.seed, index, s);
+      const Vec2f jitter = random.next_2d();
+      const Ray ray =
+          scene_.camera().ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
+      pixel.add(estimate_radiance(scene_, options_.path, ray, random, counters));
+    }
+  }
+
+  static constexpr std::size_t kTileSize = 8;  // small enough that two threads end together
+
+  const Scene& scene_;
+  const RenderOptions& options_;
+  oneapi::tbb::task_arena arena_;
+  Film film_;
+  Progress progress_;
+  oneapi::tbb::enumerable_thread_specific<PathCounters> counters_;
+};
+
+}  // namespace
+
+RenderResult render(const Scene& scene, const RenderOptions& options) {
+  if (options.path.max_depth < 0 && options.path.rr_depth == kNoRoulette) {
+    throw InputError(
+        "paths of unlimited depth without Russian roulette may never end: set a maximum depth or a "
+        "roulette depth");
+  }
+  return Renderer(scene, options).run();
+}
+
+}  // namespace plumbline::renderer

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <plumbline/renderer/math.h>
+#include <plumbline/renderer/scene/embree.h>
+#include <plumbline/renderer/scene/ray.h>
+#include <plumbline/renderer/scene/scene.h>
+
+namespace plumbline::renderer {
+
+struct Sphere {
+  Vec3f center;
+  float radius;  // after the centre, as Embree's sphere buffer wants it
+};
+
+struct Disk {
+  Vec3f center;
+  float radius;
+};
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// What a primitive belongs to. `facing` is +1 where the front side is Embree's own, −1 where
+/// flipped.
+struct Primitive {
+  std::uint32_t bsdf;
+  std::uint32_t light;
+  float facing;
+};
+
+/// Embree geometry ids, in the order of attachment.
+enum GeometryId : unsigned { kSpheres, kRectangles, kDisks, kTriangles, kGeometryKinds };
+
+/// Buffers that Embree reads in place, what belongs to each primitive, and the rays' way in.
+class SceneGeometry {
+ public:
+  std::vector<Sphere> spheres;
+  std::vector<Vec3f> rectangle_corners;  ///< four per rectangle: o, o + u, o + u + v, o + v
+  std::vector<std::uint32_t> rectangle_indices;
+  std::vector<Disk> disks;
+  std::vector<Vec3f> disk_normals;
+  std::vector<Vec3f> mesh_vertices;
+  std::vector<Triangle> triangles;
+  std::array<std::vector<Primitive>, kGeometryKinds> primitives;
+
+  SceneGeometry() = default;
+  SceneGeometry(const SceneGeometry&) = delete;
+  SceneGeometry& operator=(const SceneGeometry&) = delete;
+  ~SceneGeometry();
+
+  /// Hands the buffers to Embree; they may not change after.
+  /// @throws InputError where Embree refuses them, std::bad_alloc
+  void build();
+
+  std::optional<SurfaceHit> intersect(const Ray& ray) const;
+  bool occluded(const Ray& ray) const;
+
+ private:
+  void attach(GeometryId id, RTCGeometryType type, RTCFormat format, const void* items,
+              std::size_t item_size, std::size_t item_count,
+              const std::function<void(RTCGeometry)>& more);
+  void check_device() const;
+  SurfaceHit surface_hit(const RTCRayHit& hit) const;
+
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+};
+
+}  // namespace plumbline::renderer

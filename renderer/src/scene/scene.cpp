@@ -1,0 +1,165 @@
+#include <plumbline/renderer/scene/scene.h>
+
+#include <limits>
+#include <utility>
+
+#include "geometry.h"
+
+namespace plumbline::renderer {
+namespace {
+
+/// Axis-aligned bounds in double, grown point by point.
+struct Bounds {
+  Vec3d low{kInfinity, kInfinity, kInfinity};
+  Vec3d high{-kInfinity, -kInfinity, -kInfinity};
+
+  void add(const Vec3d& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+
+  void add(const Vec3d& center, double radius) {
+    add(center - Vec3d{radius, radius, radius});
+    add(center + Vec3d{radius, radius, radius});
+  }
+
+  Vec3d center() const { return low.x <= high.x ? (low + high) * 0.5 : Vec3d{}; }
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+};
+
+Bounds bounds_of(const std::vector<ShapeDescription>& shapes) {
+  struct Grow {
+    Bounds bounds;
+    void operator()(const SphereShape& s) { bounds.add(s.center, s.radius); }
+    void operator()(const DiskShape& s) { bounds.add(s.center, s.radius); }
+    void operator()(const RectangleShape& s) {
+      bounds.add(s.origin);
+      bounds.add(s.origin + s.edge_u);
+      bounds.add(s.origin + s.edge_v);
+      bounds.add(s.origin + s.edge_u + s.edge_v);
+    }
+    void operator()(const MeshShape& s) {
+      for (const Vec3d& v : s.vertices) bounds.add(v);
+    }
+  } grow;
+  for (const ShapeDescription& shape : shapes) std::visit(grow, shape.geometry);
+  return grow.bounds;
+}
+
+/// Turns a description into the buffers, moving everything by −center on the way.
+class SceneBuilder {
+ public:
+  SceneBuilder(SceneGeometry& geometry, const Vec3d& center)
+      : geometry_(geometry), center_(center) {}
+
+  void add(const ShapeDescription& shape) {
+    shape_ = &shape;
+    std::visit(*this, shape.geometry);
+  }
+
+  std::vector<Light> take_lights() { return std::move(lights_); }
+
+  void operator()(const SphereShape& s) {
+    const Sphere sphere{local(s.center), static_cast<float>(s.radius)};
+    geometry_.spheres.push_back(sphere);
+    add_primitive(kSpheres, s.flip_normals, [&](const Rgbf& radiance) {
+      return SphereLight{sphere.center, sphere.radius, s.flip_normals, radiance};
+    });
+  }
+
+  void operator()(const RectangleShape& s) {
+    const auto first = static_cast<std::uint32_t>(geometry_.rectangle_corners.size());
+    for (const Vec3d& corner :
+         {s.origin, s.origin + s.edge_u, s.origin + s.edge_u + s.edge_v, s.origin + s.edge_v}) {
+      geometry_.rectangle_corners.push_back(local(corner));
+    }
+    for (std::uint32_t i = 0; i < 4; ++i) geometry_.rectangle_indices.push_back(first + i);
+    add_primitive(kRectangles, s.flip_normals, [&](const Rgbf& radiance) {
+      // From the rounded corners: the light must be the surface that rays hit.
+      const Vec3f o = geometry_.rectangle_corners[first];
+      const Vec3f u = geometry_.rectangle_corners[first + 1] - o;
+      const Vec3f v = geometry_.rectangle_corners[first + 3] - o;
+      return RectangleLight{o, u, v, facing(s.flip_normals) * normalize(cross(u, v)), radiance};
+    });
+  }
+
+  void operator()(const DiskShape& s) {
+    const Disk disk{local(s.center), static_cast<float>(s.radius)};
+    const Vec3f normal = vec_cast<float>(s.normal);
+    geometry_.disks.push_back(disk);
+    geometry_.disk_normals.push_back(normal);
+    add_primitive(kDisks, false, [&](const Rgbf& radiance) {
+      return DiskLight{disk.center, normal, disk.radius, radiance};
+    });
+  }
+
+  void operator()(const MeshShape& s) {
+    const auto first = static_cast<std::uint32_t>(geometry_.mesh_vertices.size());
+    for (const Vec3d& v : s.vertices) geometry_.mesh_vertices.push_back(local(v));
+    for (const Triangle& t : s.triangles) {
+      const Triangle moved{t[0] + first, t[1] + first, t[2] + first};
+      geometry_.triangles.push_back(moved);
+      add_primitive(kTriangles, s.flip_normals, [&](const Rgbf& radiance) {
+        const Vec3f v0 = geometry_.mesh_vertices[moved[0]];
+        const Vec3f e1 = geometry_.mesh_vertices[moved[1]] - v0;
+        const Vec3f e2 = geometry_.mesh_vertices[moved[2]] - v0;
+        return TriangleLight{v0, e1, e2, facing(s.flip_normals) * normalize(cross(e1, e2)),
+                             radiance};
+      });
+    }
+  }
+
+ private:
+  static float facing(bool flip_normals) { return flip_normals ? -1.0f : 1.0f; }
+
+  Vec3f local(const Vec3d& p) const { return vec_cast<float>(p - center_); }
+
+  template <class MakeLight>
+  void add_primitive(GeometryId id, bool flip_normals, const MakeLight& make_light) {
+    std::uint32_t light = kNoLight;
+    if (shape_->radiance && !is_black(*shape_->radiance)) {
+      light = static_cast<std::uint32_t>(lights_.size());
+      lights_.emplace_back(make_light(rgb_cast<float>(*shape_->radiance)));
+    }
+    geometry_.primitives[id].push_back({shape_->bsdf, light, facing(flip_normals)});
+  }
+
+  SceneGeometry& geometry_;
+  Vec3d center_;
+  const ShapeDescription* shape_ = nullptr;
+  std::vector<Light> lights_;
+};
+
+}  // namespace
+
+Scene::Scene(const SceneDescription& description)
+    : geometry_(std::make_unique<SceneGeometry>()),
+      bsdfs_(description.bsdfs),
+      shape_count_(description.shapes.size()) {
+  const Vec3d center = bounds_of(description.shapes).center();
+  SceneBuilder builder(*geometry_, center);
+  for (const ShapeDescription& shape : description.shapes) builder.add(shape);
+  geometry_->build();
+
+  std::vector<Light> lights = builder.take_lights();
+  if (description.environment) {
+    environment_ = static_cast<std::uint32_t>(lights.size());
+    lights.emplace_back(ConstantEnvironment{rgb_cast<float>(*description.environment)});
+  }
+  lights_ = LightSet(std::move(lights));
+  camera_ = Camera(description.camera, center);
+}
+
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
+  return geometry_->intersect(ray);
+}
+
+bool Scene::occluded(const Ray& ray) const { return geometry_->occluded(ray); }
+
+}  // namespace plumbline::renderer
