@@ -1,0 +1,93 @@
+#include <plumbline/analytic/known_scene.h>
+
+#include <stdexcept>
+
+#include "scenes.h"
+
+namespace plumbline::analytic {
+
+std::string_view to_string(Strategy strategy) {
+  switch (strategy) {
+    case Strategy::bsdf:
+      return "bsdf";
+    case Strategy::light:
+      return "light";
+    case Strategy::uniform:
+      return "uniform";
+    case Strategy::mis:
+      return "mis";
+    case Strategy::one_sample:
+      return "one-sample";
+  }
+  return "?";
+}
+
+const Expectation& KnownScene::expectation(Strategy strategy) const {
+  for (const Expectation& expectation : expectations) {
+    if (expectation.strategy == strategy) return expectation;
+  }
+  throw std::logic_error("a known scene without an expectation for a strategy");
+}
+
+std::vector<Expectation> expect_pass_from_all() {
+  std::vector<Expectation> expectations;
+  for (const Strategy strategy : kStrategies)
+    expectations.push_back({strategy, Expected::pass, {}});
+  return expectations;
+}
+
+double parameter(const OracleInput& input, std::string_view name) {
+  return input.parameters.find(name)->second;
+}
+
+const std::vector<KnownScene>& known_scenes() {
+  static const std::vector<KnownScene> scenes = {furnace_cube(), furnace_open(), furnace_sphere(),
+                                                 sphere_light()};
+  return scenes;
+}
+
+const KnownScene* find_known_scene(std::string_view name) {
+  for (const KnownScene& scene : known_scenes()) {
+    if (scene.name == name) return &scene;
+  }
+  return nullptr;
+}
+
+const KnownScene& known_scene(std::string_view name) {
+  if (const KnownScene* scene = find_known_scene(name)) return *scene;
+  std::string message = "no known scene '";
+  message.append(name).append("'; there are:");
+  for (const KnownScene& scene : known_scenes()) message.append(" ").append(scene.name);
+  throw std::invalid_argument(message);
+}
+
+std::filesystem::path scene_file(std::string_view name) {
+  return std::filesystem::path(PLUMBLINE_ANALYTIC_SCENES) /
+         (std::string(known_scene(name).name) + ".xml");
+}
+
+std::unique_ptr<PixelOracle> make_oracle(const KnownScene& scene, const ParameterValues& overrides,
+                                         std::optional<FilmSize> film,
+                                         std::optional<int> max_depth) {
+  OracleInput input;
+  for (const Parameter& parameter : scene.parameters) {
+    input.parameters.emplace(parameter.name, parameter.value);
+  }
+  for (const auto& [name, value] : overrides) {
+    const auto found = input.parameters.find(name);
+    if (found == input.parameters.end()) {
+      std::string message = "scene '";
+      message.append(scene.name).append("' has no parameter '").append(name).append("'");
+      throw std::invalid_argument(message);
+    }
+    found->second = value;
+  }
+  input.camera = make_camera(scene.view, film.value_or(scene.film));
+  input.max_depth = max_depth.value_or(scene.max_depth);
+  if (input.max_depth < -1) {
+    throw std::invalid_argument("max_depth must be -1 (unlimited) or more");
+  }
+  return scene.make(input);
+}
+
+}  // namespace plumbline::analytic

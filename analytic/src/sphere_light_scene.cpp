@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include <plumbline/analytic/sphere_light.h>
+
+#include "scenes.h"
+
+namespace plumbline::analytic {
+namespace {
+
+using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
+
+constexpr double kFloorHalfSide = 10;  // of sphere_light.xml
+constexpr double kRounding = 1e-13;    // relative, of the closed forms
+constexpr double kTolerance = 1e-11;   // relative, asked of the quadrature
+constexpr unsigned kMaxRefinements = 12;
+
+struct FloorBox {
+  double x0, x1, y0, y1;
+};
+
+/// Mean of the irradiance of a sphere that dips into the floor: no antiderivative is known, and
+/// outside the sphere the integrand is smooth.
+Average clipped_mean(double radius, double height, const FloorBox& box) {
+  double inner_error = 0;
+  const auto row = [&](double y) {
+    double error = 0;
+    const double integral = Quadrature::integrate(
+        [&](double x) { return sphere_irradiance(radius, height, std::hypot(x, y)); }, box.x0,
+        box.x1, kMaxRefinements, kTolerance, &error);
+    inner_error = std::max(inner_error, error);
+    return integral;
+  };
+  double outer_error = 0;
+  const double integral =
+      Quadrature::integrate(row, box.y0, box.y1, kMaxRefinements, kTolerance, &outer_error);
+  const double height_of_box = box.y1 - box.y0;
+  const double area = (box.x1 - box.x0) * height_of_box;
+  return {integral / area, (outer_error + inner_error * height_of_box) / area};
+}
+
+/// Whether no ray through the film can meet the sphere: it lies behind the camera, or on the outer
+/// side of one of the four planes through the pinhole and an edge of the film.
+bool out_of_view(const Camera& camera, const Vec3& center, double radius) {
+  const Vec3 offset = center - camera.origin;
+  if (dot(offset, camera.forward) <= -radius) return true;
+  const double w = camera.film.width;
+  const double h = camera.film.height;
+  const std::array<Vec3, 4> corners = {camera.direction(0, 0), camera.direction(w, 0),
+                                       camera.direction(w, h), camera.direction(0, h)};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 plane = normalize(cross(corners[i], corners[(i + 1) % corners.size()]));
+    const double side = dot(plane, camera.forward) > 0 ? -1 : 1;
+    if (side * dot(plane, offset) >= radius) return true;
+  }
+  return false;
+}
+
+class SphereLightOracle final : public PixelOracle {
+ public:
+  SphereLightOracle(const Camera& camera, double radius, double height, double reflected)
+      : PixelOracle(camera.film),
+        camera_(camera),
+        radius_(radius),
+        height_(height),
+        reflected_(reflected) {}
+
+  Average box_mean(const FilmBox& box) const override {
+    const FloorBox floor = on_floor(box);
+    Average mean;
+    if (height_ >= radius_) {
+      mean.value =
+          sphere_irradiance_mean_above(radius_, height_, floor.x0, floor.x1, floor.y0, floor.y1);
+    } else {
+      mean = clipped_mean(radius_, height_, floor);
+    }
+    mean.error += kRounding * mean.value;
+    return {reflected_ * mean.value, reflected_ * mean.error};
+  }
+
+  /// The film looks straight down, so a box on it is a rectangle on the floor, and a uniform
+  /// density over one is a uniform density over the other.
+  FloorBox on_floor(const FilmBox& box) const {
+    const double distance = camera_.origin.z;
+    const Vec3 a = camera_.origin + camera_.direction(box.x0, box.y0) * distance;
+    const Vec3 b = camera_.origin + camera_.direction(box.x1, box.y1) * distance;
+    return {std::min(a.x, b.x), std::max(a.x, b.x), std::min(a.y, b.y), std::max(a.y, b.y)};
+  }
+
+ private:
+  Camera camera_;
+  double radius_, height_;
+  double reflected_;  // albedo/π · Le
+};
+
+void require(bool condition, const char* what) {
+  if (!condition) throw std::invalid_argument(what);
+}
+
+std::unique_ptr<PixelOracle> make_sphere_light(const OracleInput& input) {
+  const double radius = parameter(input, "radius");
+  const double height = parameter(input, "height");
+  const double radiance = parameter(input, "radiance");
+  const double albedo = parameter(input, "albedo");
+  constexpr double kMax = std::numeric_limits<double>::max();
+  require(radius > 0 && radius <= kMax, "radius must be positive and finite");
+  require(std::abs(height) <= kMax, "height must be finite");
+  require(radiance >= 0 && radiance <= kMax, "radiance must be finite and not negative");
+  require(albedo >= 0 && albedo <= 1, "albedo must be in [0, 1]");
+  require(out_of_view(input.camera, {0, 0, height}, radius),
+          "the light would be in view, or hold the camera: the closed form is of the floor alone");
+  const bool lit = input.max_depth == -1 || input.max_depth >= 2;
+  auto oracle = std::make_unique<SphereLightOracle>(input.camera, radius, height,
+                                                    lit ? albedo / std::numbers::pi * radiance : 0);
+  const FilmSize film = input.camera.film;
+  const FloorBox seen =
+      oracle->on_floor({0, 0, static_cast<double>(film.width), static_cast<double>(film.height)});
+  require(seen.x0 >= -kFloorHalfSide && seen.x1 <= kFloorHalfSide && seen.y0 >= -kFloorHalfSide &&
+              seen.y1 <= kFloorHalfSide,
+          "the film is so narrow that it sees past the floor's edge");
+  return oracle;
+}
+
+}  // namespace
+
+KnownScene sphere_light() {
+  KnownScene scene;
+  scene.name = "sphere_light";
+  scene.answer =
+      "L = albedo * Le * sin^2(theta_max) * cos(theta) under a sphere above the floor; the "
+      "clipped form where it dips into it";
+  scene.view = {{1.75, 0, 1}, {1.75, 0, 0}, {0, 1, 0}, 90};
+  scene.film = {128, 96};
+  scene.max_depth = 2;
+  scene.parameters = {{"radius", 0.5, "of the light [m], positive"},
+                      {"height", 1, "of the light's centre over the floor [m], more than -radius"},
+                      {"radiance", 4, "Le of the light [W/(m² sr)], not negative"},
+                      {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
+  scene.expectations = expect_pass_from_all();
+  scene.make = make_sphere_light;
+  return scene;
+}
+
+}  // namespace plumbline::analytic
