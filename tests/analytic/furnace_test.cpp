@@ -1,0 +1,100 @@
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include <plumbline/analytic/furnace.h>
+#include <plumbline/analytic/known_scene.h>
+
+namespace plumbline::analytic {
+namespace {
+
+TEST(ClosedFurnace, UnlimitedDepthSolvesTheBalance) {
+  for (const double albedo : {0.0, 0.25, 0.5, 0.9, 0.999}) {
+    const double radiance = closed_furnace_radiance(albedo, 2, -1);
+    EXPECT_NEAR(radiance, 2 + albedo * radiance, 1e-12 * radiance) << albedo;
+  }
+}
+
+TEST(ClosedFurnace, DepthIsThePartialSum) {
+  EXPECT_EQ(closed_furnace_radiance(0.5, 0.5, 0), 0);
+  EXPECT_EQ(closed_furnace_radiance(0.5, 0.5, 1), 0.5);
+  EXPECT_EQ(closed_furnace_radiance(0.5, 0.5, 2), 0.75);
+  EXPECT_EQ(closed_furnace_radiance(0.5, 0.5, 5), 0.96875);
+  EXPECT_EQ(closed_furnace_radiance(0.5, 0.5, -1), 1);
+  EXPECT_EQ(closed_furnace_radiance(1, 0.5, 7), 3.5);
+}
+
+TEST(ClosedFurnace, PartialSumsAgreeWithTheGeometricFormula) {
+  for (const double albedo : {0.1, 0.5, 0.9}) {
+    for (const int depth : {1, 2, 3, 10, 100}) {
+      const double expected = (1 - std::pow(albedo, depth)) / (1 - albedo);
+      EXPECT_NEAR(closed_furnace_radiance(albedo, 1, depth), expected, 1e-13 * expected);
+    }
+  }
+}
+
+TEST(ClosedFurnace, DeepPathsReachTheLimit) {
+  EXPECT_NEAR(closed_furnace_radiance(0.9, 1, 1000), closed_furnace_radiance(0.9, 1, -1), 1e-12);
+}
+
+TEST(ClosedFurnace, RefusesWhatHasNoAnswer) {
+  EXPECT_THROW(closed_furnace_radiance(1, 1, -1), std::invalid_argument);
+  EXPECT_THROW(closed_furnace_radiance(1.1, 1, 3), std::invalid_argument);
+  EXPECT_THROW(closed_furnace_radiance(-0.1, 1, 3), std::invalid_argument);
+  EXPECT_THROW(closed_furnace_radiance(std::nan(""), 1, 3), std::invalid_argument);
+  EXPECT_THROW(closed_furnace_radiance(0.5, -1, 3), std::invalid_argument);
+  EXPECT_THROW(closed_furnace_radiance(0.5, 1, -2), std::invalid_argument);
+}
+
+TEST(CubeFurnace, SecondMomentOfAreaSamplingGrowsLikeOneOverDistanceToTheEdgeSquared) {
+  // ∫ G² over the adjacent face, for a point at distance h from the middle of an edge of length 2.
+  // As h falls, h² times it tends to ∫∫ z²/(1 + z² + t²)⁴ dz dt over the half plane = π/24, so the
+  // mean over any patch that reaches the edge, ∫ dh/h², diverges.
+  using Quadrature = boost::math::quadrature::gauss_kronrod<double, 31>;
+  for (const double h : {1e-1, 1e-2, 1e-3}) {
+    // In units of h, on a face that reaches 2/h up and 1/h to either side.
+    const auto row = [&](double z) {
+      return 2 * Quadrature::integrate(
+                     [&](double t) { return z * z * std::pow(1 + z * z + t * t, -4); }, 0.0, 1 / h,
+                     20, 1e-10);
+    };
+    const double second_moment_h2 = Quadrature::integrate(row, 0.0, 2 / h, 20, 1e-10);
+    EXPECT_NEAR(second_moment_h2, std::numbers::pi / 24, 2 * std::pow(h, 4)) << h;
+  }
+}
+
+TEST(OpenFurnace, ReflectsTheEnvironmentOnceDirectLightCounts) {
+  EXPECT_EQ(open_furnace_radiance(0.75, 2, 0), 0);
+  EXPECT_EQ(open_furnace_radiance(0.75, 2, 1), 0);
+  EXPECT_EQ(open_furnace_radiance(0.75, 2, 2), 1.5);
+  EXPECT_EQ(open_furnace_radiance(0.75, 2, -1), 1.5);
+}
+
+TEST(OpenFurnace, ImageShowsSphereAndBackground) {
+  const auto oracle = make_oracle(known_scene("furnace_open"));
+  EXPECT_DOUBLE_EQ(oracle->pixel_mean(0, 0).value, 1);
+  // The camera aims right of and above the sphere's centre, which projects left of and below the
+  // image's.
+  EXPECT_NEAR(oracle->pixel_mean(50, 55).value, 0.75, 1e-12);
+  EXPECT_NEAR(oracle->pixel_mean(25, 65).value, 0.75, 1e-12);
+  EXPECT_DOUBLE_EQ(oracle->pixel_mean(102, 30).value, 1);
+}
+
+TEST(OpenFurnace, PixelsSumToTheImageMean) {
+  const auto oracle = make_oracle(known_scene("furnace_open"));
+  double sum = 0;
+  for (const double value : oracle->image()) sum += value;
+  EXPECT_NEAR(sum / (128.0 * 96.0), oracle->image_mean().value, 1e-13);
+}
+
+TEST(OpenFurnace, DepthOneShowsTheEnvironmentAlone) {
+  const auto oracle = make_oracle(known_scene("furnace_open"), {}, std::nullopt, 1);
+  EXPECT_DOUBLE_EQ(oracle->pixel_mean(0, 0).value, 1);
+  EXPECT_NEAR(oracle->pixel_mean(50, 55).value, 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace plumbline::analytic

@@ -1,0 +1,129 @@
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <pugixml.hpp>
+
+#include <plumbline/analytic/known_scene.h>
+
+namespace plumbline::analytic {
+namespace {
+
+pugi::xml_document load(const KnownScene& scene) {
+  pugi::xml_document document;
+  const auto result = document.load_file(scene_file(scene.name).c_str());
+  EXPECT_TRUE(result) << scene.name << ": " << result.description();
+  return document;
+}
+
+Vec3 parse_vector(std::string text) {
+  for (char& c : text) c = c == ',' ? ' ' : c;
+  std::istringstream stream(text);
+  Vec3 v;
+  EXPECT_TRUE(stream >> v.x >> v.y >> v.z) << text;
+  return v;
+}
+
+double named_value(const pugi::xml_node& parent, const char* type, const char* name) {
+  const pugi::xml_node node = parent.find_child([&](const pugi::xml_node& child) {
+    return std::string(child.name()) == type &&
+           std::string(child.attribute("name").value()) == name;
+  });
+  EXPECT_TRUE(node) << name;
+  return std::strtod(node.attribute("value").value(), nullptr);
+}
+
+TEST(KnownScenes, AreSortedAndComplete) {
+  ASSERT_GE(known_scenes().size(), 4U);
+  for (std::size_t i = 1; i < known_scenes().size(); ++i) {
+    EXPECT_LT(known_scenes()[i - 1].name, known_scenes()[i].name);
+  }
+  for (const KnownScene& scene : known_scenes()) {
+    EXPECT_EQ(&known_scene(scene.name), &scene);
+    EXPECT_FALSE(scene.answer.empty()) << scene.name;
+    for (const Parameter& parameter : scene.parameters) EXPECT_FALSE(parameter.meaning.empty());
+    for (const Strategy strategy : kStrategies) {
+      const Expectation& expectation = scene.expectation(strategy);
+      EXPECT_EQ(expectation.reason.empty(), expectation.verdict == Expected::pass)
+          << scene.name << ' ' << to_string(strategy);
+    }
+  }
+}
+
+TEST(KnownScenes, OnlyAreaSamplingInTheCubeIsHopeless) {
+  for (const KnownScene& scene : known_scenes()) {
+    for (const Expectation& expectation : scene.expectations) {
+      const bool hopeless = scene.name == "furnace_cube" && expectation.strategy == Strategy::light;
+      EXPECT_EQ(expectation.verdict == Expected::inconclusive, hopeless) << scene.name;
+    }
+  }
+}
+
+TEST(KnownScenes, DefaultsAreThoseOfTheSceneFile) {
+  for (const KnownScene& scene : known_scenes()) {
+    const pugi::xml_document document = load(scene);
+    std::map<std::string, double> in_file;
+    for (const pugi::xml_node& node : document.child("scene").children("default")) {
+      in_file[node.attribute("name").value()] =
+          std::strtod(node.attribute("value").value(), nullptr);
+    }
+    std::map<std::string, double> here;
+    for (const Parameter& p : scene.parameters) here[std::string(p.name)] = p.value;
+    EXPECT_EQ(here, in_file) << scene.name;
+  }
+}
+
+TEST(KnownScenes, CameraFilmAndDepthAreThoseOfTheSceneFile) {
+  for (const KnownScene& scene : known_scenes()) {
+    SCOPED_TRACE(std::string(scene.name));
+    const pugi::xml_document document = load(scene);
+    const pugi::xml_node root = document.child("scene");
+    EXPECT_EQ(std::string(root.attribute("version").value()), "3.0.0");
+    EXPECT_EQ(named_value(root.child("integrator"), "integer", "max_depth"), scene.max_depth);
+    const pugi::xml_node sensor = root.child("sensor");
+    EXPECT_EQ(named_value(sensor, "float", "fov"), scene.view.fov_x_degrees);
+    const pugi::xml_node lookat = sensor.child("transform").child("lookat");
+    EXPECT_EQ(parse_vector(lookat.attribute("origin").value()), scene.view.origin);
+    EXPECT_EQ(parse_vector(lookat.attribute("target").value()), scene.view.target);
+    EXPECT_EQ(parse_vector(lookat.attribute("up").value()), scene.view.up);
+    const pugi::xml_node film = sensor.child("film");
+    EXPECT_EQ(named_value(film, "integer", "width"), scene.film.width);
+    EXPECT_EQ(named_value(film, "integer", "height"), scene.film.height);
+    EXPECT_EQ(std::string(film.child("rfilter").attribute("type").value()), "box");
+  }
+}
+
+TEST(KnownScenes, OraclesGivePixelsOfAnyResolution) {
+  for (const KnownScene& scene : known_scenes()) {
+    const auto oracle = make_oracle(scene, {}, FilmSize{8, 6});
+    EXPECT_EQ(oracle->image().size(), 48U) << scene.name;
+    const Average mean = oracle->image_mean();
+    EXPECT_GT(mean.value, 0) << scene.name;
+    EXPECT_LE(mean.error, 1e-9 * mean.value) << scene.name;
+  }
+}
+
+TEST(KnownScenes, ParametersReachTheOracle) {
+  const auto oracle =
+      make_oracle(known_scene("furnace_sphere"), {{"albedo", 0.75}, {"radiance", 3.0}});
+  EXPECT_DOUBLE_EQ(oracle->pixel_mean(3, 4).value, 12);
+  const auto truncated =
+      make_oracle(known_scene("furnace_cube"), {{"radiance", 1.0}}, std::nullopt, 3);
+  EXPECT_DOUBLE_EQ(truncated->image_mean().value, 1.75);
+}
+
+TEST(KnownScenes, RefuseWhatTheyDoNotKnow) {
+  EXPECT_EQ(find_known_scene("cornell"), nullptr);
+  EXPECT_THROW(known_scene("cornell"), std::invalid_argument);
+  EXPECT_THROW(scene_file("../furnace_open"), std::invalid_argument);
+  EXPECT_THROW(make_oracle(known_scene("furnace_open"), {{"albdo", 0.5}}), std::invalid_argument);
+  EXPECT_THROW(make_oracle(known_scene("furnace_open"), {}, FilmSize{0, 4}), std::invalid_argument);
+  EXPECT_THROW(make_oracle(known_scene("furnace_open"), {}, std::nullopt, -2),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace plumbline::analytic
