@@ -2,6 +2,8 @@
 
 #include <oneapi/tbb/blocked_range2d.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -54,7 +56,9 @@ class Renderer {
   Renderer(const Scene& scene, const RenderOptions& options)
       : scene_(scene),
         options_(options),
-        arena_(options.threads > 0 ? options.threads : oneapi::tbb::task_arena::automatic),
+        thread_limit_(oneapi::tbb::global_control::max_allowed_parallelism,
+                      static_cast<std::size_t>(thread_count(options.threads))),
+        arena_(thread_count(options.threads)),
         film_(scene.camera().width(), scene.camera().height()),
         progress_(options.progress, film_.pixels().size() * options.samples_per_pixel) {}
 
@@ -80,6 +84,10 @@ class Renderer {
   }
 
  private:
+  static int thread_count(int requested) {
+    return requested > 0 ? requested : oneapi::tbb::info::default_concurrency();
+  }
+
   /// Samples per pixel of the next pass: all at once without a limit to look at, else doubling,
   /// with the last pass cut to the time that is left. 0 ends the render.
   std::uint32_t next_pass(std::uint32_t done, double seconds) const {
@@ -127,6 +135,7 @@ class Renderer {
 
   const Scene& scene_;
   const RenderOptions& options_;
+  oneapi::tbb::global_control thread_limit_;  // an arena alone cannot exceed the number of cores
   oneapi::tbb::task_arena arena_;
   Film film_;
   Progress progress_;

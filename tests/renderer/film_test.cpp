@@ -1,0 +1,67 @@
+#include <plumbline/renderer/render/film.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace plumbline::renderer {
+namespace {
+
+Rgbf sample_at(int i) {
+  const auto x = static_cast<float>(i);
+  return {1 + 0.1f * std::sin(x), 2 + 0.2f * std::cos(3 * x), x};
+}
+
+TEST(Film, MergedMomentsEqualThoseOfOneStream) {
+  PixelMoments whole, first, second;
+  for (int i = 0; i < 1000; ++i) {
+    whole.add(sample_at(i));
+    (i < 300 ? first : second).add(sample_at(i));
+  }
+  first.merge(second);
+  EXPECT_EQ(first.count, whole.count);
+  EXPECT_NEAR(first.mean.r, whole.mean.r, 1e-14);
+  EXPECT_NEAR(first.variance().g, whole.variance().g, 1e-14);
+  EXPECT_NEAR(first.variance().b, whole.variance().b, 1e-9 * whole.variance().b);
+}
+
+TEST(Film, VarianceOfAnArithmeticProgressionIsExact) {
+  PixelMoments moments;
+  for (int i = 0; i < 10; ++i) moments.add(sample_at(i));
+  EXPECT_NEAR(moments.variance().b, 55.0 / 6.0, 1e-13);  // n (n + 1)/12 for 0 … n − 1
+}
+
+TEST(Film, MeanDoesNotStallWhereAFloatSumWould) {
+  // 2^24 + 1 is not a float: a float sum of ones stops there, and the mean of twice as many is 0.5.
+  PixelMoments moments;
+  constexpr int kCount = 1 << 25;
+  for (int i = 0; i < kCount; ++i) moments.add({1, 1, 1});
+  EXPECT_EQ(moments.mean.r, 1.0);
+  EXPECT_EQ(moments.variance().r, 0.0);
+
+  float naive_sum = 0;
+  for (int i = 0; i < kCount; ++i) naive_sum += 1.0f;
+  EXPECT_EQ(naive_sum / static_cast<float>(kCount), 0.5f);
+}
+
+TEST(Film, NonFiniteSamplesAreCountedAndLeftOut) {
+  PixelMoments moments;
+  moments.add({1, 1, 1});
+  moments.add({1, std::numeric_limits<float>::quiet_NaN(), 1});
+  moments.add({std::numeric_limits<float>::infinity(), 1, 1});
+  EXPECT_EQ(moments.count, 1u);
+  EXPECT_EQ(moments.non_finite, 2u);
+  EXPECT_EQ(moments.mean.g, 1.0);
+}
+
+TEST(Film, RelativeErrorFollowsItsDefinition) {
+  Film film(1, 1);
+  film.at(0, 0).add({1, 1, 1});
+  film.at(0, 0).add({3, 3, 3});
+  // Mean 2, variance 2, two samples: √((2/2)/(4 + 0.01)).
+  EXPECT_NEAR(film.relative_error(), std::sqrt(1 / 4.01), 1e-12);
+}
+
+}  // namespace
+}  // namespace plumbline::renderer

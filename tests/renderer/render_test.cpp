@@ -1,0 +1,114 @@
+#include <plumbline/renderer/render/render.h>
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "scenes.h"
+
+namespace plumbline::renderer {
+namespace {
+
+RenderOptions options_for(Strategy strategy) {
+  RenderOptions options;
+  options.path.strategy = strategy;
+  options.samples_per_pixel = 8;
+  options.seed = 7;
+  return options;
+}
+
+bool same_bits(const Film& a, const Film& b) {
+  return a.pixels().size() == b.pixels().size() &&
+         std::memcmp(a.pixels().data(), b.pixels().data(),
+                     a.pixels().size() * sizeof(PixelMoments)) == 0;
+}
+
+TEST(Render, TheImageDoesNotDependOnTheNumberOfThreads) {
+  const Scene scene(tests::closed_sphere(33, 17));
+  for (const Strategy strategy : kStrategies) {
+    RenderOptions options = options_for(strategy);
+    options.threads = 1;
+    const RenderResult one = render(scene, options);
+    for (const int threads : {2, 3, 0}) {
+      options.threads = threads;
+      const RenderResult many = render(scene, options);
+      EXPECT_TRUE(same_bits(one.film, many.film)) << name(strategy) << ", " << threads;
+      EXPECT_EQ(one.counters.bounce_rays, many.counters.bounce_rays);
+    }
+  }
+}
+
+TEST(Render, AnotherSeedGivesAnotherImage) {
+  const Scene scene(tests::closed_sphere(33, 17));
+  RenderOptions options = options_for(Strategy::bsdf);
+  const RenderResult one = render(scene, options);
+  options.seed = 8;
+  EXPECT_FALSE(same_bits(one.film, render(scene, options).film));
+}
+
+TEST(Render, PassesUntilAnErrorIsReachedGiveTheBitsOfOnePass) {
+  const Scene scene(tests::closed_sphere(33, 17));
+  RenderOptions options = options_for(Strategy::mis);
+  options.samples_per_pixel = 1000;
+  options.relative_error = 0.1;
+  const RenderResult passes = render(scene, options);
+  EXPECT_LT(passes.samples_per_pixel, 1000u);
+  EXPECT_LE(passes.film.relative_error(), 0.1);
+  options.relative_error = 0;
+  options.samples_per_pixel = passes.samples_per_pixel;
+  EXPECT_TRUE(same_bits(passes.film, render(scene, options).film));
+}
+
+TEST(Render, DepthCountsAsInMitsuba) {
+  // Le Σ ρ^k over k < depth, with Le = ρ = 1/2 exact in every sample: all vertices see the same
+  // light.
+  const Scene scene(tests::closed_sphere(8, 8));
+  double expected = 0;
+  for (int depth = 0; depth <= 4; ++depth) {
+    RenderOptions options = options_for(Strategy::bsdf);
+    options.path.max_depth = depth;
+    EXPECT_NEAR(render(scene, options).film.mean().g, expected, 1e-6) << depth;
+    expected += 0.5 * std::pow(0.5, depth);
+  }
+}
+
+TEST(Render, RaysAreCounted) {
+  const Scene scene(tests::closed_sphere(8, 8));
+  RenderOptions options = options_for(Strategy::mis);
+  options.path.max_depth = 2;
+  const RenderResult result = render(scene, options);
+  EXPECT_EQ(result.counters.camera_rays, 8u * 8u * 8u);
+  EXPECT_EQ(result.counters.bounce_rays, 8u * 8u * 8u);
+  EXPECT_EQ(result.counters.shadow_rays, 8u * 8u * 8u);
+}
+
+TEST(Render, UnlimitedDepthWithoutRouletteIsRefused) {
+  const Scene scene(tests::closed_sphere(8, 8));
+  RenderOptions options = options_for(Strategy::bsdf);
+  options.path.rr_depth = kNoRoulette;
+  EXPECT_THROW(render(scene, options), InputError);
+}
+
+TEST(Render, ProgressReachesTheEnd) {
+  const Scene scene(tests::closed_sphere(64, 64));
+  RenderOptions options = options_for(Strategy::bsdf);
+  options.threads = 1;
+  double last = 0;
+  options.progress = [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  };
+  render(scene, options);
+  EXPECT_DOUBLE_EQ(last, 1.0);
+}
+
+TEST(Render, SceneFarFromTheOriginGivesTheSameImage) {
+  const Vec3d far{1e5, -1e5, 1e5};
+  RenderOptions options = options_for(Strategy::mis);
+  const RenderResult near_result = render(Scene(tests::closed_sphere(16, 16)), options);
+  const RenderResult far_result = render(Scene(tests::closed_sphere(16, 16, far)), options);
+  EXPECT_TRUE(same_bits(near_result.film, far_result.film));
+}
+
+}  // namespace
+}  // namespace plumbline::renderer
