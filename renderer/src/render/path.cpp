@@ -133,16 +133,8 @@ class Path {
 
   bool is_visible(const Vertex& vertex, const LightSample<float>& light) {
     ++counters_.shadow_rays;
-    Ray ray{vertex.hit.origin_towards(light.wi), light.wi};
-    if (std::isfinite(light.distance)) {
-      // Stop at the plane that lies one ray offset before the light, so that the light does not
-      // shadow itself; along the ray that is offset/cosθ.
-      const Vec3f end = vertex.ref + light.wi * light.distance;
-      ray.t_max = light.distance -
-                  ray_offset(std::max(max_norm(end), max_norm(vertex.ref))) / light.cos_light;
-      if (!(ray.t_max > 0)) return true;
-    }
-    return !scene_.occluded(ray);
+    const Ray ray = shadow_ray(vertex.hit, vertex.ref, light);
+    return !(ray.t_max > 0) || !scene_.occluded(ray);
   }
 
   /// Direct light by one direction uniform on the hemisphere that wo is in.

@@ -59,6 +59,7 @@ class SceneGeometry {
 
   std::optional<SurfaceHit> intersect(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
+  RTCScene embree_scene() const { return scene_; }
 
  private:
   void attach(GeometryId id, RTCGeometryType type, RTCFormat format, const void* items,

@@ -162,4 +162,17 @@ std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
 
 bool Scene::occluded(const Ray& ray) const { return geometry_->occluded(ray); }
 
+RTCSceneTy* Scene::embree_scene() const { return geometry_->embree_scene(); }
+
+Ray shadow_ray(const SurfaceHit& hit, const Vec3f& ref, const LightSample<float>& light) {
+  Ray ray{hit.origin_towards(light.wi), light.wi};
+  if (std::isfinite(light.distance)) {
+    const Vec3f end = ref + light.wi * light.distance;
+    // Along the ray the offset from the light's plane is longer by 1/cosθ.
+    ray.t_max =
+        light.distance - ray_offset(std::max(max_norm(end), max_norm(ref))) / light.cos_light;
+  }
+  return ray;
+}
+
 }  // namespace plumbline::renderer

@@ -13,6 +13,8 @@
 #include <plumbline/renderer/scene/description.h>
 #include <plumbline/renderer/scene/ray.h>
 
+struct RTCSceneTy;  // Embree's, so that its header stays out of this one
+
 namespace plumbline::renderer {
 
 inline constexpr std::uint32_t kNoLight = std::numeric_limits<std::uint32_t>::max();
@@ -58,6 +60,9 @@ class Scene {
   const Camera& camera() const { return camera_; }
   std::size_t shape_count() const { return shape_count_; }
 
+  /// Embree's handle (an RTCScene), for benchmarks that ask it directly.
+  RTCSceneTy* embree_scene() const;
+
  private:
   std::unique_ptr<SceneGeometry> geometry_;
   std::vector<Bsdf> bsdfs_;
@@ -76,5 +81,12 @@ inline float ray_offset(float magnitude) { return 16 * 0x1p-24f * magnitude; }
 inline float max_norm(const Vec3f& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
+
+/// The ray that asks whether a sampled light is visible from a surface point. It stops at the plane
+/// one ray offset before the light, so that the light does not shadow itself.
+///
+/// @param ref  the point that the light was sampled from
+/// @return     t_max ≤ 0 where nothing can lie between
+Ray shadow_ray(const SurfaceHit& hit, const Vec3f& ref, const LightSample<float>& light);
 
 }  // namespace plumbline::renderer
