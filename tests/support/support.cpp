@@ -1,1 +1,119 @@
+#include <gtest/gtest.h>
 #include <plumbline_tests/support.h>
+#include <stdlib.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <plumbline/reports/results.h>
+
+namespace plumbline::tests {
+namespace {
+
+/// The gate's seed: fixed, so that the gate gives the same answer twice. Its value means nothing.
+constexpr std::uint64_t kGateSeed = 20240229;
+
+/// @source Stafford 2011, variant 13 of the MurmurHash3 finaliser (the one of SplitMix64)
+std::uint64_t mix(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/// @source Fowler, Noll, Vo: FNV-1a, 64 bits
+std::uint64_t hash(std::string_view text) {
+  std::uint64_t h = 0xcbf29ce484222325u;
+  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return h;
+}
+
+/// The name that gtest_discover_tests registers: a value-parameterised test whose instance has only
+/// a number, and a typed test, go by the value or type instead of the number.
+std::string ctest_name(const testing::TestInfo& test) {
+  std::string suite = test.test_suite_name();
+  std::string name = test.name();
+  if (test.type_param() != nullptr) {
+    return suite.substr(0, suite.find('/')) + "." + name + "<" + test.type_param() + ">";
+  }
+  const std::size_t slash = name.rfind('/');
+  if (test.value_param() != nullptr && slash != std::string::npos &&
+      name.find_first_not_of("0123456789", slash + 1) == std::string::npos) {
+    name = name.substr(0, slash + 1) + test.value_param();
+  }
+  return suite + "." + name;
+}
+
+std::string quoted_for_regex(std::string_view text) {
+  std::string quoted;
+  for (const char c : text) {
+    if (std::string_view(".+*?()[]{}|^$\\").find(c) != std::string_view::npos) quoted += '\\';
+    quoted += c;
+  }
+  return quoted;
+}
+
+void append_to_results(const verify::CheckResult& result) {
+  const char* directory = std::getenv("PLUMBLINE_RESULTS");
+  if (directory == nullptr || *directory == '\0') return;
+  reports::ResultLog(directory, "checks").append(result);
+}
+
+}  // namespace
+
+std::uint64_t run_seed() {
+  const char* text = std::getenv("PLUMBLINE_SEED");
+  if (text == nullptr || *text == '\0') return kGateSeed;
+  const std::string_view digits = text;
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seed);
+  if (error != std::errc() || end != digits.data() + digits.size()) {
+    throw std::runtime_error("PLUMBLINE_SEED is not a whole number in [0, 2^64): " +
+                             std::string(digits));
+  }
+  return seed;
+}
+
+std::uint64_t check_seed(std::string_view subject) { return mix(run_seed() ^ mix(hash(subject))); }
+
+bool nightly() {
+  const char* text = std::getenv("PLUMBLINE_NIGHTLY");
+  return text != nullptr && std::string_view(text) == "1";
+}
+
+std::string replay_command() {
+  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+  if (test == nullptr) return {};
+  return std::string(nightly() ? "PLUMBLINE_NIGHTLY=1 " : "") +
+         "PLUMBLINE_SEED=" + std::to_string(run_seed()) + " " PLUMBLINE_CTEST " -R '^" +
+         quoted_for_regex(ctest_name(*test)) + "$'";
+}
+
+void expect_verdict(verify::CheckResult result, const char* file, int line) {
+  if (result.replay.empty()) result.replay = replay_command();
+  if (result.seed == 0) result.seed = run_seed();
+  append_to_results(result);
+  if (!result.as_expected()) ADD_FAILURE_AT(file, line) << verify::describe(result);
+}
+
+std::filesystem::path source_file(std::string_view path_from_root) {
+  return std::filesystem::path(PLUMBLINE_SOURCE_DIR) / path_from_root;
+}
+
+ScratchDirectory::ScratchDirectory() {
+  std::string name = (std::filesystem::temp_directory_path() / "plumbline-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) {
+    throw std::system_error(errno, std::generic_category(), name);
+  }
+  path_ = name;
+}
+
+ScratchDirectory::~ScratchDirectory() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace plumbline::tests

@@ -1,22 +1,55 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <string_view>
 
 #include <plumbline/verify/result.h>
 
 namespace plumbline::tests {
 
-/// Seed of this run: the environment variable PLUMBLINE_SEED, or the gate's fixed one. At night a fresh
-/// seed is set from outside.
+/// Seed of this run: the environment variable PLUMBLINE_SEED, or the gate's fixed one. At night a
+/// fresh seed is set from outside.
+///
+/// @throws std::runtime_error where PLUMBLINE_SEED is not a whole number in [0, 2⁶⁴)
 std::uint64_t run_seed();
+
+/// Seed of one check: run_seed() mixed with the check's subject, so that no two checks of a run
+/// share a stream and all of them change with the run's seed.
+std::uint64_t check_seed(std::string_view subject);
 
 /// Whether the nightly configuration asks for full grids (PLUMBLINE_NIGHTLY=1).
 bool nightly();
 
-/// Holds a result against its expectation: adds a GoogleTest failure that explains itself if it differs,
-/// fills in the replay command of the running test, and appends the result to the results directory
-/// ($PLUMBLINE_RESULTS, if set) for the page.
-void expect_verdict(verify::CheckResult result);
+/// The one command that repeats the running test with this run's seed; empty outside a test.
+std::string replay_command();
+
+/// Holds a result against its expectation: adds a GoogleTest failure that explains itself if it
+/// differs, fills in the replay command of the running test (and run_seed() where no seed is
+/// given), and appends the result to $PLUMBLINE_RESULTS/checks.jsonl, if that variable is set, for
+/// the page.
+///
+/// @param file, line  where the failure is reported: the caller's place
+void expect_verdict(verify::CheckResult result, const char* file = __builtin_FILE(),
+                    int line = __builtin_LINE());
+
+/// A file of the source tree, by its path from the root: "analytic/scenes/furnace_sphere.xml".
+std::filesystem::path source_file(std::string_view path_from_root);
+
+/// An empty directory of the running test's own, removed with what is in it.
+class ScratchDirectory {
+ public:
+  ScratchDirectory();
+  ~ScratchDirectory();
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace plumbline::tests

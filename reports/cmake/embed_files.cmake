@@ -1,0 +1,17 @@
+# Turns files into a C++ source that holds them as text: -DOUTPUT, and -DINPUTS as name=path|name=path.
+# Each becomes `const std::string_view name` in plumbline::reports::detail (declared in page_assets.h).
+string(REPLACE "|" ";" inputs "${INPUTS}")
+set(text "#include \"page_assets.h\"\n\nnamespace plumbline::reports::detail {\nnamespace {\n")
+set(views "")
+foreach(input IN LISTS inputs)
+  string(REGEX MATCH "^([a-z_]+)=(.*)$" matched "${input}")
+  set(name "${CMAKE_MATCH_1}")
+  file(READ "${CMAKE_MATCH_2}" bytes HEX)
+  string(LENGTH "${bytes}" digits)
+  math(EXPR size "${digits} / 2")
+  string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${bytes}")
+  string(APPEND text "const char ${name}_bytes[] = {${bytes}'\\0'};\n")
+  string(APPEND views "const std::string_view ${name}{${name}_bytes, ${size}};\n")
+endforeach()
+string(APPEND text "}  // namespace\n\n${views}}  // namespace plumbline::reports::detail\n")
+file(WRITE "${OUTPUT}" "${text}")

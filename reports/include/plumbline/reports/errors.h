@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stdexcept>
+
+namespace plumbline::reports {
+
+/// A text that is not a record of this version: torn, of another format or version, or with a field
+/// that is missing or of the wrong kind. `what()` names the format or field at fault.
+class FormatError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A results directory that cannot be reported: not there, not a directory, or empty.
+class ResultsError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace plumbline::reports

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace plumbline::reports {
+
+/// What one run of `plumbline render` did: its `--json`. JSON format "plumbline.render/1".
+struct RenderRecord {
+  std::string scene;
+  std::string strategy;
+  std::string heuristic;  ///< empty where the strategy has no use for one
+  std::uint64_t samples_per_pixel = 0;
+  double seconds = 0;  ///< wall clock, rendering only
+  std::uint64_t camera_rays = 0;
+  std::uint64_t bounce_rays = 0;
+  std::uint64_t shadow_rays = 0;
+  std::uint64_t rejected = 0;    ///< samples that a technique could not make
+  std::uint64_t non_finite = 0;  ///< samples left out of the mean: NaN or infinite
+  std::array<double, 3> mean{};  ///< RGB radiance over the image [W/(m² sr)]
+  std::uint64_t seed = 0;
+  std::string version;
+  int max_depth = -1;  ///< −1: no limit
+  int width = 0, height = 0;
+  int threads = 0;
+  std::filesystem::path image;  ///< the EXR; in the file relative to it; empty if none was kept
+  std::map<std::string, std::string> parameters;  ///< scene parameters set by -D
+};
+
+std::string to_json(const RenderRecord& record);
+
+/// @throws FormatError
+RenderRecord parse_render_record(std::string_view json);
+
+/// Writes the record as a JSON file, atomically. `record.image` is taken relative to the working
+/// directory and stored relative to the file, so that a results directory can be moved.
+///
+/// @throws std::system_error where the file cannot be written
+void write_render_record(const std::filesystem::path& path, const RenderRecord& record);
+
+/// The record, its image path made relative to the working directory again.
+///
+/// @throws FormatError, std::system_error where the file cannot be read
+RenderRecord read_render_record(const std::filesystem::path& path);
+
+}  // namespace plumbline::reports

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <plumbline/reports/bench_record.h>
+#include <plumbline/reports/environment.h>
+#include <plumbline/reports/errors.h>
+#include <plumbline/reports/figure.h>
+#include <plumbline/reports/render_record.h>
+#include <plumbline/verify/result.h>
+
+namespace plumbline::reports {
+
+/// One check as a line of JSON, format "plumbline.check/1". NaN becomes null, ±∞ "inf" and "-inf";
+/// text that is not UTF-8 gets replacement characters.
+std::string to_json(const verify::CheckResult& result);
+
+/// @throws FormatError
+verify::CheckResult parse_check(std::string_view json);
+
+/// Appends records to `directory/name.jsonl`, one JSON document per line. Each line is one write(2)
+/// to a file opened with O_APPEND: concurrent processes do not tear each other's lines.
+class ResultLog {
+ public:
+  /// Makes the directory if it is missing. The first log in it also notes the environment.
+  ///
+  /// @throws std::system_error where that is impossible
+  ResultLog(const std::filesystem::path& directory, std::string_view name);
+  ~ResultLog();
+  ResultLog(const ResultLog&) = delete;
+  ResultLog& operator=(const ResultLog&) = delete;
+
+  /// @throws std::system_error where the line could not be written whole
+  void append(const verify::CheckResult& result) { append_line(to_json(result)); }
+  void append(const SpeedPoint& point) { append_line(to_json(point)); }
+  void append(const RayCost& cost) { append_line(to_json(cost)); }
+  void append(const Figure& figure) { append_line(to_json(figure)); }
+  void append(const RunEnvironment& environment) { append_line(to_json(environment)); }
+
+ private:
+  void append_line(std::string line);
+
+  std::filesystem::path path_;
+  int file_ = -1;
+};
+
+/// A place in a results directory that could not be read.
+struct ReadWarning {
+  std::filesystem::path file;
+  std::size_t line = 0;  ///< from 1; 0 where the whole file is meant
+  std::string what;
+};
+
+/// Everything found in a results directory, in the order of file names and lines.
+struct Results {
+  std::vector<verify::CheckResult> checks;
+  std::vector<RenderRecord> renders;
+  std::vector<SpeedPoint> speed;
+  std::vector<RayCost> ray_costs;
+  std::vector<Figure> figures;
+  std::vector<RunEnvironment> environments;  ///< one per build and machine, the latest of each
+  std::vector<ReadWarning> warnings;
+};
+
+/// Reads every `*.jsonl` line and every `*.json` document below the directory that states a
+/// Plumbline format. A line that is torn or of an unknown version becomes a warning, never a silent
+/// loss; `*.json` files of others (without a `format`) are passed over.
+///
+/// @throws ResultsError where the directory is missing, is not one, or holds no record at all
+Results read_results(const std::filesystem::path& directory);
+
+/// How many checks there are of each kind.
+struct Summary {
+  std::size_t passed = 0;              ///< as expected: a bound or an agreement is proven
+  std::size_t failed_as_expected = 0;  ///< negative controls that were caught
+  std::size_t inconclusive_as_expected = 0;
+  std::size_t unexpected = 0;
+  std::size_t unreadable = 0;  ///< warnings: records that may have held anything
+
+  std::size_t checks() const {
+    return passed + failed_as_expected + inconclusive_as_expected + unexpected;
+  }
+  /// There are checks, all gave their expected verdict, and nothing was lost.
+  bool good() const { return checks() > 0 && unexpected == 0 && unreadable == 0; }
+};
+
+Summary summarise(const Results& results);
+
+}  // namespace plumbline::reports

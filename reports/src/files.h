@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace plumbline::reports::detail {
+
+/// Writes `text` beside `path` and renames it into place: the file appears whole or not at all.
+///
+/// @throws std::system_error naming the path
+void write_file_atomically(const std::filesystem::path& path, std::string_view text);
+
+/// @throws std::system_error naming the path
+std::string read_file(const std::filesystem::path& path);
+
+}  // namespace plumbline::reports::detail

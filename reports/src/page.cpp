@@ -1,0 +1,52 @@
+#include <plumbline/reports/page.h>
+
+#include <stdexcept>
+#include <string_view>
+
+#include "files.h"
+#include "page_assets.h"
+#include "page_data.h"
+
+namespace plumbline::reports {
+namespace {
+
+std::string part(std::string_view name, const PageInput& input) {
+  if (name == "css") return std::string(detail::page_css);
+  if (name == "data") return detail::page_data(input);
+  if (name == "chart") return std::string(detail::chart_js);
+  if (name == "script") {
+    std::string script;
+    for (const std::string_view file :
+         {detail::page_base_js, detail::page_checks_js, detail::page_images_js,
+          detail::page_plots_js, detail::page_main_js}) {
+      script += file;
+    }
+    return script;
+  }
+  throw std::logic_error("index.html names an unknown part: " + std::string(name));
+}
+
+}  // namespace
+
+std::string make_page(const PageInput& input) {
+  static constexpr std::string_view kOpen = "{{", kClose = "}}";
+  std::string page;
+  std::string_view rest = detail::page_html;
+  for (;;) {
+    const std::size_t open = rest.find(kOpen);
+    page += rest.substr(0, open);
+    if (open == std::string_view::npos) return page;
+    rest.remove_prefix(open + kOpen.size());
+    const std::size_t close = rest.find(kClose);
+    page += part(rest.substr(0, close), input);
+    rest.remove_prefix(close + kClose.size());
+  }
+}
+
+void write_page(const PageInput& input, const std::filesystem::path& path) {
+  const std::string page = make_page(input);
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
+  detail::write_file_atomically(path, page);
+}
+
+}  // namespace plumbline::reports

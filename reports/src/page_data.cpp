@@ -1,0 +1,185 @@
+#include "page_data.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <plumbline/reports/power_fit.h>
+
+#include "base64.h"
+#include "record_fields.h"
+
+namespace plumbline::reports::detail {
+namespace {
+
+/// Half-width of a 95 % interval of a normal distribution in standard errors.
+constexpr double kNormal95 = 1.959963984540054;
+
+Json summary_to_json(const Summary& summary) {
+  return {{"passed", summary.passed},
+          {"failed_as_expected", summary.failed_as_expected},
+          {"inconclusive_as_expected", summary.inconclusive_as_expected},
+          {"unexpected", summary.unexpected},
+          {"unreadable", summary.unreadable},
+          {"good", summary.good()}};
+}
+
+/// A seed as text: JavaScript's numbers would round it.
+template <class Record>
+Json with_exact_seed(const Record& record) {
+  Json json = record_to_json(record);
+  json["seed"] = std::to_string(record.seed);
+  return json;
+}
+
+Json checks_to_json(const std::vector<verify::CheckResult>& checks) {
+  Json list = Json::array();
+  for (const verify::CheckResult& check : checks) {
+    Json json = with_exact_seed(check);
+    json["as_expected"] = check.as_expected();
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+Json warnings_to_json(const std::vector<ReadWarning>& warnings) {
+  Json list = Json::array();
+  for (const ReadWarning& warning : warnings) {
+    list.push_back({{"file", warning.file.filename().string()},
+                    {"line", warning.line},
+                    {"what", warning.what}});
+  }
+  return list;
+}
+
+Json image_to_json(const PageImage& image) {
+  if (image.width <= 0 || image.height <= 0 ||
+      image.rgb.size() != std::size_t{3} * static_cast<std::size_t>(image.width) *
+                              static_cast<std::size_t>(image.height)) {
+    throw std::invalid_argument("image \"" + image.group + "/" + image.name +
+                                "\": size and data disagree");
+  }
+  return {{"group", image.group},
+          {"name", image.name},
+          {"width", image.width},
+          {"height", image.height},
+          {"data", base64_of_floats(image.rgb)}};
+}
+
+template <class Record>
+Json list_to_json(const std::vector<Record>& records) {
+  Json list = Json::array();
+  for (const Record& record : records) list.push_back(record_to_json(record));
+  return list;
+}
+
+/// The points of one scene that belong on one line.
+struct SpeedCurve {
+  std::string strategy, heuristic, sampler;
+  std::vector<SpeedPoint> points;
+
+  bool takes(const SpeedPoint& p) const {
+    return p.strategy == strategy && p.heuristic == heuristic && p.sampler == sampler;
+  }
+};
+
+struct SpeedScene {
+  std::string name;
+  std::vector<SpeedCurve> curves;
+};
+
+template <class Range, class Condition>
+auto* find_where(Range& range, const Condition& condition) {
+  for (auto& element : range) {
+    if (condition(element)) return &element;
+  }
+  return static_cast<decltype(&*range.begin())>(nullptr);
+}
+
+std::vector<SpeedScene> curves_by_scene(const std::vector<SpeedPoint>& points) {
+  std::vector<SpeedScene> scenes;
+  for (const SpeedPoint& point : points) {
+    SpeedScene* scene =
+        find_where(scenes, [&](const SpeedScene& s) { return s.name == point.scene; });
+    if (scene == nullptr) scene = &scenes.emplace_back(SpeedScene{point.scene, {}});
+    SpeedCurve* curve =
+        find_where(scene->curves, [&](const SpeedCurve& c) { return c.takes(point); });
+    if (curve == nullptr) {
+      curve = &scene->curves.emplace_back(
+          SpeedCurve{point.strategy, point.heuristic, point.sampler, {}});
+    }
+    curve->points.push_back(point);
+  }
+  return scenes;
+}
+
+/// Error is the root of relMSE, so that its slope against time is −1/2 for a plain estimator.
+PowerFit fit_error_against_time(const SpeedCurve& curve) {
+  std::vector<PowerFitPoint> points;
+  for (const SpeedPoint& p : curve.points) {
+    const double log_width = std::log(p.rel_mse_high) - std::log(p.rel_mse_low);
+    points.push_back({p.seconds, std::sqrt(p.rel_mse), log_width / (2 * kNormal95) / 2});
+  }
+  return fit_power(points);
+}
+
+Json curve_to_json(const SpeedCurve& curve) {
+  const PowerFit fit = fit_error_against_time(curve);
+  return {{"strategy", curve.strategy},
+          {"heuristic", curve.heuristic},
+          {"sampler", curve.sampler},
+          {"points", list_to_json(curve.points)},
+          {"factor", json_from_double(fit.factor)},
+          {"slope", json_from_double(fit.exponent)},
+          {"slope_error", json_from_double(fit.exponent_error)}};
+}
+
+Json speed_to_json(const std::vector<SpeedPoint>& points) {
+  Json scenes = Json::array();
+  for (const SpeedScene& scene : curves_by_scene(points)) {
+    Json curves = Json::array();
+    for (const SpeedCurve& curve : scene.curves) curves.push_back(curve_to_json(curve));
+    scenes.push_back({{"scene", scene.name}, {"curves", std::move(curves)}});
+  }
+  return scenes;
+}
+
+Json renders_to_json(const std::vector<RenderRecord>& renders) {
+  Json list = Json::array();
+  for (const RenderRecord& render : renders) list.push_back(with_exact_seed(render));
+  return list;
+}
+
+void escape_for_script(std::string& text) {
+  std::string escaped;
+  escaped.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') {
+      escaped += "\\u003c";
+    } else {
+      escaped += c;
+    }
+  }
+  text = std::move(escaped);
+}
+
+}  // namespace
+
+std::string page_data(const PageInput& input) {
+  const Results& results = input.results;
+  Json images = Json::array();
+  for (const PageImage& image : input.images) images.push_back(image_to_json(image));
+  const Json data = {{"summary", summary_to_json(summarise(results))},
+                     {"environments", list_to_json(results.environments)},
+                     {"warnings", warnings_to_json(results.warnings)},
+                     {"checks", checks_to_json(results.checks)},
+                     {"images", std::move(images)},
+                     {"renders", renders_to_json(results.renders)},
+                     {"speed", speed_to_json(results.speed)},
+                     {"ray_costs", list_to_json(results.ray_costs)},
+                     {"figures", list_to_json(results.figures)}};
+  std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  escape_for_script(text);
+  return text;
+}
+
+}  // namespace plumbline::reports::detail

@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <system_error>
+
+#include <plumbline/reports/results.h>
+
+#include "files.h"
+#include "record_fields.h"
+
+namespace plumbline::reports {
+namespace {
+
+namespace fs = std::filesystem;
+using detail::Json;
+
+/// Every file below the directory that may hold records, in the order of their names.
+std::vector<fs::path> record_files(const fs::path& directory) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory)) {
+    const fs::path extension = entry.path().extension();
+    if (entry.is_regular_file() && (extension == ".jsonl" || extension == ".json")) {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+void add_environment(std::vector<RunEnvironment>& environments, RunEnvironment environment) {
+  for (RunEnvironment& known : environments) {
+    if (!known.same_build(environment)) continue;
+    environment.libraries.merge(known.libraries);
+    if (environment.time < known.time) environment.time = known.time;
+    known = std::move(environment);
+    return;
+  }
+  environments.push_back(std::move(environment));
+}
+
+void add_document(Results& results, const std::string& text, const fs::path& directory) {
+  const std::string format = detail::format_of(detail::parse_json(text));
+  if (format == detail::kCheckFormat) {
+    results.checks.push_back(parse_check(text));
+  } else if (format == detail::kRenderFormat) {
+    RenderRecord record = parse_render_record(text);
+    if (!record.image.empty()) record.image = directory / record.image;
+    results.renders.push_back(std::move(record));
+  } else if (format == detail::kSpeedFormat) {
+    results.speed.push_back(parse_speed_point(text));
+  } else if (format == detail::kRayCostFormat) {
+    results.ray_costs.push_back(parse_ray_cost(text));
+  } else if (format == detail::kFigureFormat) {
+    results.figures.push_back(parse_figure(text));
+  } else if (format == detail::kEnvironmentFormat) {
+    add_environment(results.environments, parse_environment(text));
+  } else if (format.empty()) {
+    throw FormatError("states no \"format\"");
+  } else {
+    throw FormatError("format \"" + format + "\" is not one that this version reads");
+  }
+}
+
+void read_lines(Results& results, const fs::path& file, const std::string& text) {
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    ++number;
+    const std::string line = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (line.empty()) continue;
+    try {
+      add_document(results, line, file.parent_path());
+    } catch (const FormatError& error) {
+      results.warnings.push_back({file, number, error.what()});
+    }
+  }
+}
+
+/// A whole file as one document; those that state no format belong to somebody else.
+void read_single(Results& results, const fs::path& file, const std::string& text) {
+  try {
+    if (detail::format_of(detail::parse_json(text)).empty()) return;
+    add_document(results, text, file.parent_path());
+  } catch (const FormatError& error) {
+    results.warnings.push_back({file, 0, error.what()});
+  }
+}
+
+bool holds_nothing(const Results& results) {
+  return results.checks.empty() && results.renders.empty() && results.speed.empty() &&
+         results.ray_costs.empty() && results.figures.empty() && results.warnings.empty();
+}
+
+}  // namespace
+
+Results read_results(const fs::path& directory) {
+  std::error_code ignored;
+  if (!fs::exists(directory, ignored)) {
+    throw ResultsError(directory.string() + ": no such directory");
+  }
+  if (!fs::is_directory(directory, ignored)) {
+    throw ResultsError(directory.string() + ": not a directory");
+  }
+  Results results;
+  for (const fs::path& file : record_files(directory)) {
+    try {
+      const std::string text = detail::read_file(file);
+      if (file.extension() == ".jsonl") {
+        read_lines(results, file, text);
+      } else {
+        read_single(results, file, text);
+      }
+    } catch (const std::system_error& error) {
+      results.warnings.push_back({file, 0, error.what()});
+    }
+  }
+  if (holds_nothing(results)) {
+    throw ResultsError(directory.string() +
+                       ": holds no results (*.jsonl, or *.json with a format)");
+  }
+  return results;
+}
+
+Summary summarise(const Results& results) {
+  Summary summary;
+  for (const verify::CheckResult& check : results.checks) {
+    if (!check.as_expected()) {
+      ++summary.unexpected;
+    } else if (check.verdict == verify::Verdict::pass) {
+      ++summary.passed;
+    } else if (check.verdict == verify::Verdict::fail) {
+      ++summary.failed_as_expected;
+    } else {
+      ++summary.inconclusive_as_expected;
+    }
+  }
+  summary.unreadable = results.warnings.size();
+  return summary;
+}
+
+}  // namespace plumbline::reports

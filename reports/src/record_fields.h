@@ -1,0 +1,156 @@
+#pragma once
+
+#include <type_traits>
+
+#include <plumbline/reports/results.h>
+
+#include "json_fields.h"
+
+/// The fields of every format, in the order in which they are written.
+namespace plumbline::reports::detail {
+
+inline constexpr const char* kCheckFormat = "plumbline.check/1";
+inline constexpr const char* kEnvironmentFormat = "plumbline.environment/1";
+inline constexpr const char* kRenderFormat = "plumbline.render/1";
+inline constexpr const char* kSpeedFormat = "plumbline.speed/1";
+inline constexpr const char* kRayCostFormat = "plumbline.ray_cost/1";
+inline constexpr const char* kFigureFormat = "plumbline.figure/1";
+
+/// Whether `T`, const or not, is `Record`: one function serves the writer and the reader.
+template <class T, class Record>
+concept Is = std::is_same_v<std::remove_const_t<T>, Record>;
+
+template <class Visitor, Is<RunEnvironment> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("version", r.version);
+  visit("commit", r.commit);
+  visit("dirty", r.dirty);
+  visit("compiler", r.compiler);
+  visit("flags", r.flags);
+  visit("cpu", r.cpu);
+  visit("cores", r.cores);
+  visit("system", r.system);
+  visit("load_average", r.load_average);
+  visit("time", r.time);
+  visit("libraries", r.libraries);
+}
+
+template <class Visitor, Is<SpeedPoint> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("scene", r.scene);
+  visit("strategy", r.strategy);
+  visit("heuristic", r.heuristic);
+  visit("sampler", r.sampler);
+  visit("spp", r.samples_per_pixel);
+  visit("seconds", r.seconds);
+  visit("rays", r.rays);
+  visit("rel_mse", r.rel_mse);
+  visit("rel_mse_low", r.rel_mse_low);
+  visit("rel_mse_high", r.rel_mse_high);
+  visit("replicates", r.replicates);
+}
+
+template <class Visitor, Is<RayCost> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("scene", r.scene);
+  visit("rays", r.rays);
+  visit("occluded_fraction", r.occluded_fraction);
+  visit("width", r.width);
+  visit("count", r.count);
+  visit("intersect_ns", r.intersect_ns);
+  visit("occluded_ns", r.occluded_ns);
+  visit("ratio", r.ratio);
+  visit("ratio_low", r.ratio_low);
+  visit("ratio_high", r.ratio_high);
+}
+
+template <>
+struct EnumWords<verify::Verdict> {
+  static constexpr std::array<std::pair<verify::Verdict, const char*>, 3> kWords{
+      {{verify::Verdict::pass, "pass"},
+       {verify::Verdict::fail, "fail"},
+       {verify::Verdict::inconclusive, "inconclusive"}}};
+};
+
+template <class Visitor, Is<verify::CheckResult> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("check", r.check);
+  visit("subject", r.subject);
+  visit("verdict", r.verdict);
+  visit("expected", r.expected);
+  visit("estimate", r.estimate);
+  visit("reference", r.reference);
+  visit("tolerance", r.tolerance);
+  visit("bound", r.bound);
+  visit("detectable", r.detectable);
+  visit("p_value", r.p_value);
+  visit("interval_low", r.interval_low);
+  visit("interval_high", r.interval_high);
+  visit("samples", r.samples);
+  visit("seconds", r.seconds);
+  visit("leaned_on", r.leaned_on);
+  visit("reason", r.reason);
+  visit("diagnosis", r.diagnosis);
+  visit("seed", r.seed);
+  visit("replay", r.replay);
+  visit("figures", r.figures);
+}
+
+template <class Visitor, Is<RenderRecord> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("scene", r.scene);
+  visit("strategy", r.strategy);
+  visit("heuristic", r.heuristic);
+  visit("spp", r.samples_per_pixel);
+  visit("seconds", r.seconds);
+  visit("camera_rays", r.camera_rays);
+  visit("bounce_rays", r.bounce_rays);
+  visit("shadow_rays", r.shadow_rays);
+  visit("rejected", r.rejected);
+  visit("non_finite", r.non_finite);
+  visit("mean", r.mean);
+  visit("seed", r.seed);
+  visit("version", r.version);
+  visit("max_depth", r.max_depth);
+  visit("width", r.width);
+  visit("height", r.height);
+  visit("threads", r.threads);
+  visit("image", r.image);
+  visit("parameters", r.parameters);
+}
+
+template <>
+struct EnumWords<SeriesStyle> {
+  static constexpr std::array<std::pair<SeriesStyle, const char*>, 3> kWords{
+      {{SeriesStyle::points, "points"},
+       {SeriesStyle::line, "line"},
+       {SeriesStyle::dashed, "dashed"}}};
+};
+
+template <class Visitor, Is<FigureAxis> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("label", r.label);
+  visit("log", r.log);
+}
+
+template <class Visitor, Is<FigureSeries> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("name", r.name);
+  visit("style", r.style);
+  visit("x", r.x);
+  visit("y", r.y);
+  visit("low", r.low);
+  visit("high", r.high);
+}
+
+template <class Visitor, Is<Figure> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("group", r.group);
+  visit("title", r.title);
+  visit("caption", r.caption);
+  visit("x_axis", r.x);
+  visit("y_axis", r.y);
+  visit("series", r.series);
+}
+
+}  // namespace plumbline::reports::detail

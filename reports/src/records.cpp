@@ -1,0 +1,68 @@
+#include "record_fields.h"
+
+namespace plumbline::reports {
+namespace {
+
+void require_same_lengths(const Figure& figure) {
+  for (const FigureSeries& series : figure.series) {
+    const std::size_t n = series.x.size();
+    const bool bars = !series.low.empty() || !series.high.empty();
+    if (series.y.size() != n || (bars && (series.low.size() != n || series.high.size() != n))) {
+      throw FormatError("figure \"" + figure.title + "\", series \"" + series.name +
+                        "\": x, y and intervals differ in length");
+    }
+  }
+}
+
+}  // namespace
+
+std::string to_json(const verify::CheckResult& result) {
+  return detail::document(detail::kCheckFormat, result);
+}
+
+verify::CheckResult parse_check(std::string_view json) {
+  return detail::parse_document<verify::CheckResult>(detail::kCheckFormat, json);
+}
+
+std::string to_json(const RunEnvironment& environment) {
+  return detail::document(detail::kEnvironmentFormat, environment);
+}
+
+RunEnvironment parse_environment(std::string_view json) {
+  return detail::parse_document<RunEnvironment>(detail::kEnvironmentFormat, json);
+}
+
+std::string to_json(const RenderRecord& record) {
+  return detail::document(detail::kRenderFormat, record);
+}
+
+RenderRecord parse_render_record(std::string_view json) {
+  return detail::parse_document<RenderRecord>(detail::kRenderFormat, json);
+}
+
+std::string to_json(const SpeedPoint& point) {
+  return detail::document(detail::kSpeedFormat, point);
+}
+
+SpeedPoint parse_speed_point(std::string_view json) {
+  return detail::parse_document<SpeedPoint>(detail::kSpeedFormat, json);
+}
+
+std::string to_json(const RayCost& cost) { return detail::document(detail::kRayCostFormat, cost); }
+
+RayCost parse_ray_cost(std::string_view json) {
+  return detail::parse_document<RayCost>(detail::kRayCostFormat, json);
+}
+
+std::string to_json(const Figure& figure) {
+  require_same_lengths(figure);
+  return detail::document(detail::kFigureFormat, figure);
+}
+
+Figure parse_figure(std::string_view json) {
+  Figure figure = detail::parse_document<Figure>(detail::kFigureFormat, json);
+  require_same_lengths(figure);
+  return figure;
+}
+
+}  // namespace plumbline::reports
