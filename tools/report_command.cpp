@@ -1,0 +1,113 @@
+#include "report_command.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <system_error>
+#include <vector>
+
+#include <plumbline/renderer/render/exr.h>
+#include <plumbline/renderer/scene/description.h>
+#include <plumbline/reports/page.h>
+
+namespace plumbline::tools {
+namespace {
+
+/// "mis, power": how the picture was made, without what the group's name says already.
+std::string picture_name(const reports::RenderRecord& record) {
+  std::string name = record.strategy;
+  if (!record.heuristic.empty()) name += ", " + record.heuristic;
+  for (const auto& [key, value] : record.parameters) name += ", " + key + "=" + value;
+  return name;
+}
+
+reports::PageImage picture(const reports::RenderRecord& record) {
+  const renderer::Image image = renderer::read_exr(record.image);
+  reports::PageImage result{record.scene, picture_name(record), image.width, image.height, {}};
+  result.rgb.reserve(image.pixels.size() * 3);
+  for (const renderer::Rgbf& pixel : image.pixels) {
+    result.rgb.insert(result.rgb.end(), {pixel.r, pixel.g, pixel.b});
+  }
+  return result;
+}
+
+std::vector<reports::PageImage> pictures(reports::Results& results) {
+  std::vector<reports::PageImage> images;
+  for (const reports::RenderRecord& record : results.renders) {
+    if (record.image.empty()) continue;
+    try {
+      images.push_back(picture(record));
+    } catch (const renderer::InputError& error) {
+      results.warnings.push_back({record.image, 0, error.what()});
+    }
+  }
+  return images;
+}
+
+/// The checks of one suite: those whose subjects begin alike.
+struct SuiteRow {
+  std::string suite;
+  std::size_t checks = 0, unexpected = 0;
+  double seconds = 0;
+};
+
+std::vector<SuiteRow> suite_rows(const std::vector<verify::CheckResult>& checks) {
+  std::vector<SuiteRow> rows;
+  for (const verify::CheckResult& check : checks) {
+    const std::string suite = check.subject.substr(0, check.subject.find('/'));
+    auto row =
+        std::find_if(rows.begin(), rows.end(), [&](const SuiteRow& r) { return r.suite == suite; });
+    if (row == rows.end()) row = rows.insert(rows.end(), SuiteRow{suite, 0, 0, 0});
+    ++row->checks;
+    row->unexpected += check.as_expected() ? 0 : 1;
+    row->seconds += check.seconds;
+  }
+  return rows;
+}
+
+void print_summary(const reports::Results& results, const reports::Summary& summary) {
+  fmt::print("{:<32} {:>7} {:>11} {:>9}\n", "suite", "checks", "unexpected", "seconds");
+  for (const SuiteRow& row : suite_rows(results.checks)) {
+    fmt::print("{:<32} {:>7} {:>11} {:>9.2f}\n", row.suite, row.checks, row.unexpected,
+               row.seconds);
+  }
+  fmt::print(
+      "\n{} checks: {} passed, {} caught as they should be, {} inconclusive as expected, {} "
+      "unexpected\n",
+      summary.checks(), summary.passed, summary.failed_as_expected,
+      summary.inconclusive_as_expected, summary.unexpected);
+  for (const verify::CheckResult& check : results.checks) {
+    if (!check.as_expected()) fmt::print("\n{}\n", verify::describe(check));
+  }
+  for (const reports::ReadWarning& warning : results.warnings) {
+    fmt::print(stderr, "warning: {}{}: {}\n", warning.file.string(),
+               warning.line == 0 ? "" : ":" + std::to_string(warning.line), warning.what);
+  }
+}
+
+bool is_machine_failure(const std::error_code& code) {
+  return code == std::errc::no_space_on_device || code == std::errc::io_error ||
+         code == std::error_code(EDQUOT, std::generic_category());
+}
+
+}  // namespace
+
+int run_report(const std::filesystem::path& results_dir, const std::filesystem::path& output) {
+  try {
+    reports::PageInput input;
+    input.results = reports::read_results(results_dir);
+    input.images = pictures(input.results);
+    reports::write_page(input, output);
+    const reports::Summary summary = reports::summarise(input.results);
+    print_summary(input.results, summary);
+    fmt::print("page: {}\n", output.string());
+    return summary.unexpected == 0 && summary.unreadable == 0 ? 0 : 1;
+  } catch (const reports::ResultsError& error) {
+    throw renderer::InputError(error.what());
+  } catch (const std::system_error& error) {
+    if (is_machine_failure(error.code())) throw renderer::MachineError(error.what());
+    throw renderer::InputError(error.what());
+  }
+}
+
+}  // namespace plumbline::tools
