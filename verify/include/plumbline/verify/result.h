@@ -9,8 +9,8 @@
 
 namespace plumbline::verify {
 
-/// What a check concludes. `pass` is a proof (a bound at the stated confidence), `fail` is a proof of
-/// a difference, everything else is `inconclusive`.
+/// What a check concludes. `pass` is a proof (a bound at the stated confidence), `fail` is a proof
+/// of a difference, everything else is `inconclusive`.
 enum class Verdict { pass, fail, inconclusive };
 
 /// "pass", "fail" or "inconclusive".
@@ -19,7 +19,8 @@ std::string_view to_string(Verdict verdict);
 inline constexpr double kNotApplicable = std::numeric_limits<double>::quiet_NaN();
 
 /// The outcome of one check. Plain data: what a person needs to act on it, what the page shows, and
-/// what replays it. Fields that a kind of check has no use for stay NaN (`kNotApplicable`) or empty.
+/// what replays it. Fields that a kind of check has no use for stay NaN (`kNotApplicable`) or
+/// empty.
 struct CheckResult {
   std::string check;    ///< kind of check: "mean", "chi_square", "variance_ratio", "integral", …
   std::string subject;  ///< what was checked, coarse to fine: "furnace_sphere/mis/power"
@@ -50,7 +51,8 @@ struct CheckResult {
   bool as_expected() const { return verdict == expected; }
 };
 
-/// Several lines for a person: subject, verdict against expectation, the numbers, where, why, replay.
+/// Several lines for a person: subject, verdict against expectation, the numbers, where, why,
+/// replay.
 std::string describe(const CheckResult& result);
 
 }  // namespace plumbline::verify

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <plumbline/verify/budget.h>
+#include <plumbline/verify/moments.h>
+#include <plumbline/verify/result.h>
+
+namespace plumbline::verify {
+
+/// What a check of a mean looks at: an estimate with what is known about its error. Made from
+/// moments of independent samples by `evidence()`, or by pooling the pixels of an image
+/// (image_check.h).
+struct Evidence {
+  std::uint64_t samples = 0;
+  double estimate = 0;
+  double standard_error = 0;
+  double skewness = 0;  ///< of the estimate, not of one sample: γ/√n for independent samples
+  double largest_share = 0;  ///< share of the squared deviations carried by a single sample
+  bool all_zero = false;     ///< every sample was 0
+  std::uint64_t rejected = 0;
+  std::uint64_t non_finite = 0;
+};
+
+/// Evidence of independent samples.
+Evidence evidence(const Moments& moments);
+
+/// Evidence of the difference a − b of two independent estimates (Welch).
+Evidence difference(const Evidence& a, const Evidence& b);
+
+/// What a mean check is asked.
+struct MeanOptions {
+  std::string subject;
+  double reference = 0;  ///< the known answer
+
+  /// Largest |bias| that a pass allows. Relative to |reference| where `relative`, else in its
+  /// units; where the reference is 0 it must be absolute.
+  double tolerance = 0.005;
+  bool relative = true;
+
+  /// A bias that is proven to exceed this fails even below the tolerance: what float rounding of
+  /// the code under test may do. Relative to |reference|, or absolute, like `tolerance`.
+  double rounding_allowance = 1e-5;
+
+  /// Variance of one sample, where a closed form gives it; else it is estimated from the samples.
+  double exact_variance = kNotApplicable;
+
+  std::uint64_t n0 = 1250;              ///< samples at the first look: 20,000 is the fifth
+  std::uint64_t max_samples = 1 << 26;  ///< the cap, where the check stays undecided
+  Verdict expected = Verdict::pass;
+  std::uint64_t seed = 0;  ///< only passed on to the result: the sampler draws the numbers
+  ErrorBudget budget;
+};
+
+/// Shows |bias| ≤ tolerance, or bias ≠ 0, looking at growing sample counts: equivalence test and
+/// difference test at once, group-sequential, both levels spent over the looks.
+///
+/// - `fail` if the bias is proven to exceed the rounding allowance, at the level of the error
+/// budget;
+///   also if any sample was not finite.
+/// - `pass` if |bias| ≤ tolerance is proven with 99.9 % confidence.
+/// - else `inconclusive`, with the reason and the bound still proven.
+///
+/// Skewed samples: statistics are corrected for skewness (Hall's transformation) and the less
+/// extreme of the corrected and the plain one counts; no verdict while the skewness of the estimate
+/// exceeds 0.05 or one sample carries more than 5 % of the squared deviations. An exact variance
+/// that more than twice exceeds what the samples show means that their tail has not been seen: no
+/// verdict.
+///
+/// Samples that are all equal have no error to estimate. They pass from 20,000 samples on, if
+/// within the tolerance; they fail from 20,000 on if they are not 0, and from 1e6 on if they are
+/// all 0, since that is also what a rare event looks like.
+///
+/// @source Hall 1992 (J. R. Stat. Soc. B 54:1), transformation g of Section 2 · two one-sided
+/// tests:
+///         Schuirmann 1987
+class MeanCheck {
+ public:
+  /// @throws std::invalid_argument for a reference, tolerance or cap that makes no sense
+  explicit MeanCheck(MeanOptions options);
+
+  /// Whether a verdict is reached or the cap is.
+  bool done() const { return done_; }
+
+  /// Samples still to be drawn before the next look; 0 when done.
+  std::uint64_t samples_wanted() const;
+
+  /// Adds samples; looks when enough have come. More than were wanted only count as one look.
+  void add(const Moments& batch);
+
+  /// For estimates that are not a plain mean of samples (images): looks at all the evidence so far.
+  /// `evidence.samples` decides which look of the plan this is; between looks nothing happens.
+  void look(const Evidence& all_so_far);
+
+  /// Verdict, estimate, interval, proven bound, detectable effect, samples used, what it leaned on.
+  CheckResult result() const { return result_; }
+
+ private:
+  void judge(const Evidence& evidence, std::size_t look);
+
+  MeanOptions options_;
+  LookPlan plan_;
+  Moments moments_;
+  std::size_t next_look_ = 0;
+  bool done_ = false;
+  CheckResult result_;
+};
+
+/// Draws `count` more samples; `first` is the number of samples drawn before. Called from one
+/// thread.
+using MomentSampler = std::function<Moments(std::uint64_t first, std::uint64_t count)>;
+
+/// Runs a mean check on a sampler until it is decided.
+CheckResult check_mean(const MeanOptions& options, const MomentSampler& sampler);
+
+}  // namespace plumbline::verify

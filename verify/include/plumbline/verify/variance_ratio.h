@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include <plumbline/verify/budget.h>
+#include <plumbline/verify/moments.h>
+#include <plumbline/verify/result.h>
+
+namespace plumbline::verify {
+
+/// A claim about the ratio variance(a)/variance(b).
+struct VarianceRatioOptions {
+  std::string subject;
+  double at_least = kNotApplicable;  ///< claim: ratio ≥ this
+  double at_most = kNotApplicable;   ///< claim: ratio ≤ this; both may be given
+  Verdict expected = Verdict::pass;
+  std::uint64_t seed = 0;
+  ErrorBudget budget;
+};
+
+/// Whether the ratio of two variances keeps a claim, with a 99.9 % interval.
+///
+/// The samples come in batches (at least 16, equally many of a and b, of about equal size), and the
+/// interval is Student's on the logarithm of the ratio with the jackknife over batches, which makes
+/// no assumption on the distribution of the samples. Leaving out the same batch of both keeps the
+/// interval right, and makes it narrower, when batch i of a and of b shared their random numbers.
+///
+/// `pass` if the interval keeps the claim, `fail` if it is proven broken at the level of the error
+/// budget, else `inconclusive`; also `inconclusive` while one batch carries more than a quarter of
+/// a variance, since then the tail decides. The estimate is the ratio; without a claim the verdict
+/// is `pass` when the interval is finite and the tail does not decide.
+///
+/// @throws std::invalid_argument for fewer than 16 batches or unequally many
+/// @source Miller 1974 (jackknife of log variances)
+CheckResult check_variance_ratio(const VarianceRatioOptions& options, std::span<const Moments> a,
+                                 std::span<const Moments> b);
+
+/// The same for any non-negative statistic that is averaged over batches: the mean variance over
+/// the pixels of a render, the mean squared error of a replicate.
+CheckResult check_variance_ratio(const VarianceRatioOptions& options, std::span<const double> a,
+                                 std::span<const double> b);
+
+}  // namespace plumbline::verify
