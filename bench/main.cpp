@@ -1,0 +1,56 @@
+#include <benchmark/benchmark.h>
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <plumbline/reports/results.h>
+#include "shadow_rays.h"
+#include "speed_error.h"
+
+namespace {
+
+/// Google Benchmark takes its settings as a command line.
+void measure_sampling_cost(const std::filesystem::path& results, bool full) {
+  std::vector<std::string> words{"plumbline_bench",
+                                 "--benchmark_out_format=json",
+                                 "--benchmark_out=" + (results / "sampling_cost.json").string(),
+                                 "--benchmark_enable_random_interleaving=true",
+                                 std::string("--benchmark_min_time=") + (full ? "0.2" : "0.02"),
+                                 std::string("--benchmark_repetitions=") + (full ? "9" : "5"),
+                                 "--benchmark_report_aggregates_only=true"};
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  int argc = static_cast<int>(argv.size());
+  benchmark::Initialize(&argc, argv.data());
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  CLI::App app{"Benchmarks of Plumbline: shadow rays, sampling cost, speed against error"};
+  std::filesystem::path results;
+  bool full = false;
+  app.add_option("--results", results, "Folder for the JSON results")->required();
+  app.add_flag("--full", full, "Everything, instead of the one-minute set");
+  CLI11_PARSE(app, argc, argv);
+
+  std::filesystem::create_directories(results);
+  for (const char* old : {"shadow_rays.jsonl", "speed_error.jsonl"}) {
+    std::filesystem::remove(results / old);
+  }
+  plumbline::reports::ResultLog shadow_rays(results, "shadow_rays");
+  plumbline::bench::measure_shadow_rays(shadow_rays, full);
+  plumbline::reports::ResultLog speed_error(results, "speed_error");
+  plumbline::bench::measure_speed_against_error(speed_error, full);
+  measure_sampling_cost(results, full);
+  return 0;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "plumbline_bench: {}\n", error.what());
+  return 2;
+}

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <plumbline/renderer/scene/description.h>
+
+namespace plumbline::bench {
+
+/// Path of a scene by name, from the scenes with known answers or from bench/scenes.
+/// @throws renderer::InputError for a name that neither has
+std::filesystem::path scene_path(const std::string& name);
+
+/// The scene at another resolution, with square pixels as before.
+renderer::SceneDescription load_at_size(const std::string& name, int width, int height);
+
+/// Luminance of the exact image, or of a render with `reference_spp` samples per pixel where no
+/// closed form is known; row by row from the top.
+std::vector<double> reference_luminance(const std::string& name,
+                                        const renderer::SceneDescription& description,
+                                        std::uint32_t reference_spp);
+
+}  // namespace plumbline::bench
