@@ -5,21 +5,16 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <boost/math/quadrature/gauss_kronrod.hpp>
-
 #include <plumbline/analytic/sphere_light.h>
 
+#include "piecewise.h"
 #include "scenes.h"
 
 namespace plumbline::analytic {
 namespace {
 
-using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
-
 constexpr double kFloorHalfSide = 10;  // of sphere_light.xml
 constexpr double kRounding = 1e-13;    // relative, of the closed forms
-constexpr double kTolerance = 1e-11;   // relative, asked of the quadrature
-constexpr unsigned kMaxRefinements = 12;
 
 struct FloorBox {
   double x0, x1, y0, y1;
@@ -30,19 +25,16 @@ struct FloorBox {
 Average clipped_mean(double radius, double height, const FloorBox& box) {
   double inner_error = 0;
   const auto row = [&](double y) {
-    double error = 0;
-    const double integral = Quadrature::integrate(
+    const Quadrature across = integrate_smooth(
         [&](double x) { return sphere_irradiance(radius, height, std::hypot(x, y)); }, box.x0,
-        box.x1, kMaxRefinements, kTolerance, &error);
-    inner_error = std::max(inner_error, error);
-    return integral;
+        box.x1);
+    inner_error = std::max(inner_error, across.error);
+    return across.value;
   };
-  double outer_error = 0;
-  const double integral =
-      Quadrature::integrate(row, box.y0, box.y1, kMaxRefinements, kTolerance, &outer_error);
+  const Quadrature whole = integrate_smooth(row, box.y0, box.y1);
   const double height_of_box = box.y1 - box.y0;
   const double area = (box.x1 - box.x0) * height_of_box;
-  return {integral / area, (outer_error + inner_error * height_of_box) / area};
+  return {whole.value / area, (whole.error + inner_error * height_of_box) / area};
 }
 
 /// Whether no ray through the film can meet the sphere: it lies behind the camera, or on the outer

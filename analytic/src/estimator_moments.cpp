@@ -1,0 +1,215 @@
+#include <plumbline/analytic/estimator_moments.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "piecewise.h"
+#include "weight_breaks.h"
+
+namespace plumbline::analytic {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// x is drawn from density `index` with this probability, and counts as `value(x)`.
+struct Source {
+  double probability = 1;
+  std::size_t index = 0;
+  std::function<double(double)> value;
+};
+
+/// ∫ p_i(x) g(x) dx over the support of p_i.
+Quadrature expectation(const Integral1d& integral, std::size_t i, const std::vector<double>& breaks,
+                       const std::function<double(double)>& g) {
+  const Density1d& density = integral.densities[i];
+  const auto integrand = [&](double x) {
+    const double p = density.pdf_x(x);
+    return p > 0 ? p * g(x) : 0;
+  };
+  return integrate_pieces(integrand, make_cuts(std::max(integral.low, density.low),
+                                               std::min(integral.high, density.high), breaks));
+}
+
+/// Moments of one draw from a mixture of sources, central ones about the mean: no cancellation, so
+/// that a variance of 0 comes out as 0.
+Moments draw_moments(const Integral1d& integral, const std::vector<Source>& sources,
+                     std::vector<double> breaks) {
+  breaks.insert(breaks.end(), integral.breaks.begin(), integral.breaks.end());
+  for (const Density1d& density : integral.densities) {
+    breaks.push_back(density.low);
+    breaks.push_back(density.high);
+  }
+  const auto moment = [&](const std::function<double(double)>& of_value) {
+    Quadrature sum;
+    for (const Source& source : sources) {
+      const Quadrature q = expectation(integral, source.index, breaks,
+                                       [&](double x) { return of_value(source.value(x)); });
+      sum.value += source.probability * q.value;
+      sum.error += source.probability * q.error;
+    }
+    return sum;
+  };
+  const double mean = moment([](double g) { return g; }).value;
+  const Quadrature variance = moment([=](double g) { return (g - mean) * (g - mean); });
+  const double fourth = moment([=](double g) { return std::pow(g - mean, 4); }).value;
+  return {mean, variance.value, fourth, variance.error};
+}
+
+/// Moments of the sum of independent terms, each `copies` times: means, variances and fourth
+/// cumulants add.
+struct Term {
+  Moments of_one;
+  double copies = 1;
+};
+
+Moments sum_moments(const std::vector<Term>& terms) {
+  Moments sum;
+  double cumulant = 0;
+  for (const Term& term : terms) {
+    const Moments& one = term.of_one;
+    sum.mean += term.copies * one.mean;
+    sum.variance += term.copies * one.variance;
+    if (one.variance < kInfinity) {
+      cumulant += term.copies * (one.fourth - 3 * one.variance * one.variance);
+    }
+    sum.variance_error += term.copies * one.variance_error;
+  }
+  sum.fourth = sum.variance < kInfinity ? cumulant + 3 * sum.variance * sum.variance : kInfinity;
+  return sum;
+}
+
+Moments scaled(Moments moments, double factor) {
+  moments.mean *= factor;
+  moments.variance *= factor * factor;
+  moments.fourth *= std::pow(factor, 4);
+  moments.variance_error *= factor * factor;
+  return moments;
+}
+
+std::vector<double> with_factors(const Integral1d& integral, const std::vector<double>& factors,
+                                 double x) {
+  std::vector<double> q(integral.densities.size());
+  for (std::size_t k = 0; k < q.size(); ++k) q[k] = factors[k] * integral.densities[k].pdf_x(x);
+  return q;
+}
+
+double total(const std::vector<double>& q) {
+  double sum = 0;
+  for (const double value : q) sum += value;
+  return sum;
+}
+
+std::vector<double> as_factors(const std::vector<int>& counts) {
+  return std::vector<double>(counts.begin(), counts.end());
+}
+
+}  // namespace
+
+double weight(const WeightRule& rule, const std::vector<double>& q, std::size_t i) {
+  const double largest = *std::max_element(q.begin(), q.end());
+  if (!(q[i] > 0)) return 0;
+  const auto share = [&](const auto& of) {
+    double sum = 0;
+    for (const double value : q) sum += value > 0 ? of(value) : 0.0;
+    return of(q[i]) / sum;
+  };
+  switch (rule.kind) {
+    case WeightRule::Kind::balance:
+      return share([](double v) { return v; });
+    case WeightRule::Kind::power:
+      return share([&](double v) { return std::pow(v / largest, rule.parameter); });
+    case WeightRule::Kind::cutoff:
+      return share([&](double v) { return v < rule.parameter * largest ? 0.0 : v; });
+    case WeightRule::Kind::maximum:
+      return share([&](double v) { return v == largest ? 1.0 : 0.0; });
+  }
+  return 0;
+}
+
+Moments single_moments(const Integral1d& integral, std::size_t i) {
+  const Density1d& density = integral.densities[i];
+  const auto ratio = [&](double x) { return integral.f(x) / density.pdf_x(x); };
+  if (integral.infinite_variance[i]) {
+    const Quadrature mean = integrate_pieces(
+        integral.f, make_cuts(std::max(integral.low, density.low),
+                              std::min(integral.high, density.high), integral.breaks));
+    return {mean.value, kInfinity, kInfinity, 0};
+  }
+  return draw_moments(integral, {{1, i, ratio}}, {});
+}
+
+Moments plain_sum_moments(const Integral1d& integral) {
+  std::vector<Term> terms;
+  for (std::size_t i = 0; i < integral.densities.size(); ++i) {
+    terms.push_back({single_moments(integral, i), 1});
+  }
+  return sum_moments(terms);
+}
+
+Moments naive_average_moments(const Integral1d& integral) {
+  return scaled(plain_sum_moments(integral), 1.0 / static_cast<double>(integral.densities.size()));
+}
+
+Moments weighted_moments(const Integral1d& integral, const std::vector<int>& counts,
+                         const std::function<double(std::size_t, double)>& weight_of,
+                         const std::vector<double>& breaks) {
+  std::vector<Term> terms;
+  for (std::size_t i = 0; i < integral.densities.size(); ++i) {
+    const double n = counts[i];
+    const auto value = [&, i, n](double x) {
+      return weight_of(i, x) * integral.f(x) / (n * integral.densities[i].pdf_x(x));
+    };
+    terms.push_back({draw_moments(integral, {{1, i, value}}, breaks), n});
+  }
+  return sum_moments(terms);
+}
+
+Moments multi_sample_moments(const Integral1d& integral, const WeightRule& rule,
+                             const std::vector<int>& counts) {
+  const std::vector<double> factors = as_factors(counts);
+  return weighted_moments(
+      integral, counts,
+      [&](std::size_t i, double x) { return weight(rule, with_factors(integral, factors, x), i); },
+      weight_breaks(integral, rule, factors));
+}
+
+Moments one_sample_moments(const Integral1d& integral, const WeightRule& rule,
+                           const std::vector<double>& selection) {
+  std::vector<Source> sources;
+  for (std::size_t i = 0; i < integral.densities.size(); ++i) {
+    sources.push_back({selection[i], i, [&, i](double x) {
+                         const std::vector<double> q = with_factors(integral, selection, x);
+                         return weight(rule, q, i) * integral.f(x) / q[i];
+                       }});
+  }
+  return draw_moments(integral, sources, weight_breaks(integral, rule, selection));
+}
+
+Moments mixture_moments(const Integral1d& integral, const std::vector<double>& fractions) {
+  std::vector<Source> sources;
+  for (std::size_t i = 0; i < integral.densities.size(); ++i) {
+    sources.push_back({fractions[i], i, [&](double x) {
+                         return integral.f(x) / total(with_factors(integral, fractions, x));
+                       }});
+  }
+  return draw_moments(integral, sources, {});
+}
+
+Moments control_variate_moments(const Integral1d& integral, const std::vector<int>& counts,
+                                const std::vector<double>& alpha) {
+  const std::vector<double> factors = as_factors(counts);
+  const auto residual = [&](double x) {
+    return (integral.f(x) - total(with_factors(integral, alpha, x))) /
+           total(with_factors(integral, factors, x));
+  };
+  std::vector<Term> terms;
+  for (std::size_t i = 0; i < integral.densities.size(); ++i) {
+    terms.push_back({draw_moments(integral, {{1, i, residual}}, {}), factors[i]});
+  }
+  Moments moments = sum_moments(terms);
+  moments.mean += total(alpha);
+  return moments;
+}
+
+}  // namespace plumbline::analytic

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace plumbline::analytic {
+
+struct Quadrature {
+  double value = 0;
+  double error = 0;  ///< estimated, absolute
+};
+
+/// ∫ f over [a, b], for a function that is smooth inside.
+Quadrature integrate_smooth(const std::function<double(double)>& f, double a, double b);
+
+/// ∫ f from the first to the last of the sorted `cuts`, piece by piece: f is smooth between them.
+Quadrature integrate_pieces(const std::function<double(double)>& f,
+                            const std::vector<double>& cuts);
+
+/// Sorted, without duplicates, and only what lies in [low, high]; `low` and `high` included.
+std::vector<double> make_cuts(double low, double high, std::vector<double> inner);
+
+}  // namespace plumbline::analytic
