@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <type_traits>
 
 #include <plumbline/renderer/math.h>
 
@@ -34,6 +35,19 @@ std::optional<LightSample<T>> from_area_sample(const Vec3<T>& to_light, const Ve
   const T cos_light = -dot(normal, wi);
   if (!(cos_light > T(0))) return std::nullopt;
   return LightSample<T>{wi, distance, cos_light, radiance, T(pdf_a * distance_squared / cos_light)};
+}
+
+/// The stored unit normal in the precision of T. Stored in float it is perpendicular to the edges
+/// to 2⁻²⁴ only, which is right for rendering; in other scalars it is made anew from the edges, so
+/// that the light is one consistent shape to the last digit.
+template <class T>
+Vec3<T> plane_normal(const Vec3f& normal, const Vec3f& edge_1, const Vec3f& edge_2) {
+  if constexpr (std::is_same_v<T, float>) {
+    return normal;
+  } else {
+    const Vec3<T> n = normalize(cross(vec_cast<T>(edge_1), vec_cast<T>(edge_2)));
+    return dot(n, vec_cast<T>(normal)) > T(0) ? n : -n;
+  }
 }
 
 /// Where the ray ref + t·wi meets the front of a plane.

@@ -24,14 +24,15 @@ struct RectangleLight {
   std::optional<LightSample<T>> sample(const Vec3<T>& ref, const Vec2<T>& u) const {
     const Vec3<T> point =
         vec_cast<T>(origin) + vec_cast<T>(edge_u) * u.x + vec_cast<T>(edge_v) * u.y;
-    return from_area_sample(point - ref, vec_cast<T>(normal), T(T(1) / area<T>()),
-                            rgb_cast<T>(radiance));
+    return from_area_sample(point - ref, plane_normal<T>(normal, edge_u, edge_v),
+                            T(T(1) / area<T>()), rgb_cast<T>(radiance));
   }
 
   /// @return pdf_w [1/sr] of `sample(ref, u)`; 0 where wi misses the front
   template <class T>
   T pdf(const Vec3<T>& ref, const Vec3<T>& wi) const {
-    const auto hit = hit_front_of_plane(ref, wi, vec_cast<T>(origin), vec_cast<T>(normal));
+    const auto hit =
+        hit_front_of_plane(ref, wi, vec_cast<T>(origin), plane_normal<T>(normal, edge_u, edge_v));
     if (!hit) return T(0);
     const Vec3<T> p = ref + wi * hit->distance - vec_cast<T>(origin);
     const Vec3<T> eu = vec_cast<T>(edge_u), ev = vec_cast<T>(edge_v);

@@ -25,14 +25,15 @@ struct TriangleLight {
   std::optional<LightSample<T>> sample(const Vec3<T>& ref, const Vec2<T>& u) const {
     const Vec2<T> b = square_to_uniform_triangle(u);
     const Vec3<T> point = vec_cast<T>(v0) + vec_cast<T>(edge_1) * b.x + vec_cast<T>(edge_2) * b.y;
-    return from_area_sample(point - ref, vec_cast<T>(normal), T(T(1) / area<T>()),
-                            rgb_cast<T>(radiance));
+    return from_area_sample(point - ref, plane_normal<T>(normal, edge_1, edge_2),
+                            T(T(1) / area<T>()), rgb_cast<T>(radiance));
   }
 
   /// @return pdf_w [1/sr] of `sample(ref, u)`; 0 where wi misses the front
   template <class T>
   T pdf(const Vec3<T>& ref, const Vec3<T>& wi) const {
-    const auto hit = hit_front_of_plane(ref, wi, vec_cast<T>(v0), vec_cast<T>(normal));
+    const auto hit =
+        hit_front_of_plane(ref, wi, vec_cast<T>(v0), plane_normal<T>(normal, edge_1, edge_2));
     if (!hit) return T(0);
     // Barycentric coordinates by Cramer's rule on p = b1·e1 + b2·e2.
     const Vec3<T> p = ref + wi * hit->distance - vec_cast<T>(v0);

@@ -1,0 +1,45 @@
+#include "path_samples.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace plumbline::tests {
+namespace {
+
+using renderer::PathCounters;
+using renderer::Pcg32;
+using renderer::Rgbf;
+using renderer::Vec2f;
+
+constexpr std::uint64_t kChunk = 4096;
+
+}  // namespace
+
+verify::MomentSampler path_samples(const renderer::Scene& scene,
+                                   const renderer::PathOptions& options, std::uint64_t seed) {
+  return [&scene, options, seed](std::uint64_t first, std::uint64_t count) {
+    const std::uint64_t chunks = (count + kChunk - 1) / kChunk;
+    std::vector<verify::Moments> parts(chunks);
+    const auto width = static_cast<float>(scene.camera().width());
+    const auto height = static_cast<float>(scene.camera().height());
+    oneapi::tbb::parallel_for(std::uint64_t{0}, chunks, [&](std::uint64_t chunk) {
+      const std::uint64_t begin = first + chunk * kChunk;
+      const std::uint64_t end = std::min(begin + kChunk, first + count);
+      PathCounters counters;
+      for (std::uint64_t sample = begin; sample < end; ++sample) {
+        Pcg32 random(seed, 0, sample);
+        const Vec2f film = random.next_2d();
+        const Rgbf radiance = estimate_radiance(
+            scene, options, scene.camera().ray(film.x * width, film.y * height), random, counters);
+        parts[chunk].add(static_cast<double>(luminance(radiance)));
+      }
+    });
+    verify::Moments all;
+    for (const verify::Moments& part : parts) all.merge(part);
+    return all;
+  };
+}
+
+}  // namespace plumbline::tests

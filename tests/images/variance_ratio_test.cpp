@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/verify/agree.h>
+#include <plumbline/verify/variance_ratio.h>
+#include <plumbline_tests/support.h>
+#include "path_samples.h"
+
+/// What MIS is for: on a small light it must beat BSDF sampling by far, on a large close one light
+/// sampling, and nowhere lose much to the better of the two.
+namespace plumbline::tests {
+namespace {
+
+using renderer::Heuristic;
+using renderer::Scene;
+using renderer::Strategy;
+
+constexpr int kBatches = 64;
+
+class BenchScene {
+ public:
+  explicit BenchScene(const std::string& name)
+      : name_(name),
+        description_(
+            renderer::load_scene(std::filesystem::path(PLUMBLINE_BENCH_SCENES) / (name + ".xml"))),
+        scene_(description_) {}
+
+  verify::MomentSampler samples(Strategy strategy, std::uint64_t seed) const {
+    return path_samples(scene_,
+                        {strategy, Heuristic::power, description_.integrator.max_depth,
+                         description_.integrator.rr_depth},
+                        seed);
+  }
+
+  std::vector<verify::Moments> batches(Strategy strategy, std::uint64_t seed) const {
+    const std::uint64_t size = nightly() ? 200'000 : 20'000;
+    const auto sampler = samples(strategy, seed);
+    std::vector<verify::Moments> result;
+    for (std::uint64_t i = 0; i < kBatches; ++i) result.push_back(sampler(i * size, size));
+    return result;
+  }
+
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+  renderer::SceneDescription description_;
+  Scene scene_;
+};
+
+void expect_ratio(const BenchScene& scene, Strategy a, Strategy b, double at_least, double at_most,
+                  verify::Verdict expected = verify::Verdict::pass) {
+  verify::VarianceRatioOptions options;
+  options.subject = scene.name() + "/" + std::string(name(a)) + " over " + std::string(name(b));
+  if (expected == verify::Verdict::fail) options.subject = "control/" + options.subject;
+  options.at_least = at_least;
+  options.at_most = at_most;
+  options.expected = expected;
+  options.seed = check_seed(options.subject);
+  expect_verdict(check_variance_ratio(options, scene.batches(a, options.seed),
+                                      scene.batches(b, options.seed + 1)));
+}
+
+// The bounds are claims of kind, an order below what the scenes show, not measurements: those are
+// on the page.
+
+TEST(VarianceRatio, OnASmallLightMisBeatsBsdfSamplingByFarAndKeepsUpWithLightSampling) {
+  const BenchScene scene("small_light");
+  expect_ratio(scene, Strategy::bsdf, Strategy::mis, 10, verify::kNotApplicable);
+  expect_ratio(scene, Strategy::light, Strategy::mis, 0.5, verify::kNotApplicable);
+}
+
+TEST(VarianceRatio, OnALargeLightMisBeatsLightSamplingAndKeepsUpWithBsdfSampling) {
+  const BenchScene scene("large_light");
+  expect_ratio(scene, Strategy::light, Strategy::mis, 1.5, verify::kNotApplicable);
+  expect_ratio(scene, Strategy::bsdf, Strategy::mis, 0.5, verify::kNotApplicable);
+}
+
+TEST(VarianceRatio, ClaimThatBsdfSamplingBeatsMisOnASmallLightFails) {
+  expect_ratio(BenchScene("small_light"), Strategy::bsdf, Strategy::mis, verify::kNotApplicable, 1,
+               verify::Verdict::fail);
+}
+
+TEST(VarianceRatio, TheSameCodeTwiceHasARatioOfOne) {
+  expect_ratio(BenchScene("small_light"), Strategy::mis, Strategy::mis, 0.9, 1.1);
+}
+
+}  // namespace
+}  // namespace plumbline::tests

@@ -1,0 +1,109 @@
+#include <plumbline/renderer/light/light.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include <plumbline/renderer/sampling/pcg32.h>
+
+namespace plumbline::renderer {
+namespace {
+
+std::vector<Light> one_of_each() {
+  const Rgbf white{1, 1, 1};
+  return {SphereLight{{0, 0, 3}, 0.5f, false, white},
+          SphereLight{{0, 0, 0}, 5.0f, true, white},
+          RectangleLight{{-1, -1, 2}, {2, 0, 0}, {0, 3, 0}, {0, 0, -1}, white},
+          DiskLight{{0.3f, 0, 2.5f}, {0, 0, -1}, 0.8f, white},
+          TriangleLight{
+              {-1, 0, 2}, {2, 0.5f, 0}, {0.25f, 2, 1}, normalize(Vec3f{-0.5f, 2, -3.875f}), white},
+          ConstantEnvironment{white}};
+}
+
+TEST(LightSet, RecordedDensityIsTheOneThatAHitAsksFor) {
+  // What makes the MIS weights of the two call sites sum to 1: selection included, seen from the
+  // shading point. In double, where the two formulas differ by rounding alone; the margin is for
+  // directions near the edge of a light, where the point found again has lost digits.
+  const LightSet lights(one_of_each());
+  Pcg32 random(1, 0, 0);
+  int compared = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Vec3<double> ref = vec_cast<double>(square_to_uniform_sphere(random.next_2d()));
+    const Vec2<double> u{static_cast<double>(random.next_1d()),
+                         static_cast<double>(random.next_1d())};
+    const auto light = std::min(static_cast<std::uint32_t>(u.x * 6), 5u);
+    const auto sample = lights.sample(ref, u);
+    if (!sample) continue;
+    ASSERT_GT(sample->pdf_w, 0);
+    const double pdf_w = lights.pdf(light, ref, sample->wi);
+    ASSERT_NEAR(pdf_w / sample->pdf_w, 1, 1e-9) << "light " << light << ", u " << u.x << ' ' << u.y;
+    ++compared;
+  }
+  EXPECT_GT(compared, 10'000);
+}
+
+TEST(LightSet, NothingIsSampledFromBehindAOneSidedLight) {
+  const Vec3<double> behind{0, 0, 10};
+  for (const Light& light : one_of_each()) {
+    if (std::holds_alternative<ConstantEnvironment>(light) || light.index() == 0) continue;
+    EXPECT_FALSE(sample(light, behind, Vec2<double>{0.3, 0.6})) << light.index();
+    EXPECT_EQ(pdf(light, behind, Vec3<double>{0, 0, -1}), 0) << light.index();
+  }
+}
+
+TEST(UniformLightSelection, EveryLightIsChosenForItsShareOfUAndTheRestIsUniformAgain) {
+  for (const std::uint32_t count : {1u, 2u, 5u, 1000u}) {
+    const UniformLightSelection selection{count};
+    for (std::uint32_t light = 0; light < count; ++light) {
+      const double low = light / static_cast<double>(count);
+      for (const double part : {0.001, 0.25, 0.999}) {
+        const auto choice = selection.sample(low + part / count);
+        EXPECT_EQ(choice.light, light);
+        EXPECT_NEAR(choice.u, part, 1e-9);
+        EXPECT_EQ(choice.pmf, selection.pmf<double>(light));
+      }
+    }
+    EXPECT_EQ(selection.pmf<double>(count), 0);
+    const auto last = selection.sample(1 - 0x1p-24f);
+    EXPECT_EQ(last.light, count - 1);
+    EXPECT_LT(last.u, 1.0f);
+  }
+}
+
+TEST(SphereLight, SolidAngleIsRightToSixDigitsInFloatHoweverSmallTheCone) {
+  // pdf_w is the reciprocal of the solid angle 2π (1 − √(1 − R²/d²)), here in long double with
+  // 1 − √(1 − x) = x/(1 + √(1 − x)). d and R are powers of two, exact in float.
+  for (int exponent = -23; exponent <= -1; ++exponent) {
+    const float radius = std::ldexp(1.0f, exponent);
+    const SphereLight light{{0, 0, 1}, radius, false, {1, 1, 1}};
+    const long double x = static_cast<long double>(radius) * radius;
+    const long double solid_angle = 2 * pi<long double>() * x / (1 + std::sqrt(1 - x));
+    const float pdf_w = light.pdf(Vec3f{}, Vec3f{0, 0, 1});
+    EXPECT_NEAR(static_cast<double>(pdf_w * solid_angle), 1, 1e-6) << "R/d = 2^" << exponent;
+    const auto sample = light.sample(Vec3f{}, Vec2f{0.5f, 0.25f});
+    ASSERT_TRUE(sample);
+    EXPECT_EQ(sample->pdf_w, pdf_w);
+  }
+}
+
+TEST(SphereLight, TheFormulaWithOneMinusCosineWouldFail) {
+  const float radius = 0x1.8p-12f;
+  const float cos_max = std::sqrt(1 - radius * radius);
+  const double naive = static_cast<double>(1 - cos_max);
+  EXPECT_GT(std::abs(naive / (0.5 * 0x1.8p-12 * 0x1.8p-12) - 1), 0.05);
+}
+
+TEST(SphereLight, DistanceToTheSampledPointDoesNotCancel) {
+  const SphereLight light{{0, 0, 1}, 0x1p-12f, false, {1, 1, 1}};
+  for (const float u : {0.0f, 0.25f, 0.5f, 0.75f, 1 - 0x1p-24f}) {
+    const auto sample = light.sample(Vec3f{}, Vec2f{u, 0.0f});
+    ASSERT_TRUE(sample);
+    EXPECT_GE(sample->distance, 1 - 0x1p-12f);
+    EXPECT_LE(sample->distance, 1.0f);
+    EXPECT_GE(sample->cos_light, 0.0f);
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::renderer
