@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 
 #include <plumbline/verify/budget.h>
@@ -19,7 +20,9 @@ struct Evidence {
   double standard_error = 0;
   double skewness = 0;  ///< of the estimate, not of one sample: γ/√n for independent samples
   double largest_share = 0;  ///< share of the squared deviations carried by a single sample
-  bool all_zero = false;     ///< every sample was 0
+  double tail_index = std::numeric_limits<double>::infinity();  ///< as Moments::tail_index
+  double smallest = kNotApplicable;                             ///< sample, where known
+  double largest = kNotApplicable;                              ///< sample, where known
   std::uint64_t rejected = 0;
   std::uint64_t non_finite = 0;
 };
@@ -45,6 +48,8 @@ struct MeanOptions {
   double rounding_allowance = 1e-5;
 
   /// Variance of one sample, where a closed form gives it; else it is estimated from the samples.
+  /// Infinity says that it is known to be infinite: then nothing passes or fails but the bound
+  /// stands.
   double exact_variance = kNotApplicable;
 
   std::uint64_t n0 = 1250;              ///< samples at the first look: 20,000 is the fifth
@@ -64,14 +69,16 @@ struct MeanOptions {
 /// - else `inconclusive`, with the reason and the bound still proven.
 ///
 /// Skewed samples: statistics are corrected for skewness (Hall's transformation) and the less
-/// extreme of the corrected and the plain one counts; no verdict while the skewness of the estimate
-/// exceeds 0.05 or one sample carries more than 5 % of the squared deviations. An exact variance
-/// that more than twice exceeds what the samples show means that their tail has not been seen: no
-/// verdict.
+/// extreme of the corrected and the plain one counts. No verdict while the skewness of the estimate
+/// exceeds 0.05, one sample carries more than 5 % of the squared deviations, or fewer than 1,000
+/// samples are in. No pass while the tail looks so heavy that the variance is infinite, and no
+/// verdict while the samples show less than half or more than twice the exact variance, if that is
+/// given.
 ///
-/// Samples that are all equal have no error to estimate. They pass from 20,000 samples on, if
-/// within the tolerance; they fail from 20,000 on if they are not 0, and from 1e6 on if they are
-/// all 0, since that is also what a rare event looks like.
+/// Samples that are all equal (to within the rounding allowance) have no error to estimate. They
+/// pass from 20,000 samples on, if within the tolerance; they fail from 20,000 on if they are not
+/// 0, and from 2^20 on if they are all 0, since that is also what a rare event looks like. With an
+/// exact variance all zeros fail as soon as they are too improbable under it.
 ///
 /// @source Hall 1992 (J. R. Stat. Soc. B 54:1), transformation g of Section 2 · two one-sided
 /// tests:

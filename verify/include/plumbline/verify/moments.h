@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -53,11 +54,20 @@ class Moments {
   /// Share of m2 that the single most deviating sample carries, in [0, 1]; 0 where m2 is 0.
   double largest_share() const;
 
+  /// Lower confidence limit (two standard errors) of the tail index a: P(|x| > t) falls like t^-a
+  /// among the largest samples. At or below 2 the variance looks infinite. +infinity where the tail
+  /// is bounded, or where fewer than 100,000 samples say too little.
+  double tail_index() const;
+
  private:
+  // Samples by binary exponent of |x|, −64 to 63 (beyond: the outermost).
+  static constexpr int kOctaves = 128;
+
   std::uint64_t count_ = 0, rejected_ = 0, non_finite_ = 0;
   double mean_ = 0, m2_ = 0, m3_ = 0;
   double smallest_ = std::numeric_limits<double>::infinity();
   double largest_ = -std::numeric_limits<double>::infinity();
+  std::array<std::uint64_t, kOctaves> octaves_{};
 };
 
 }  // namespace plumbline::verify

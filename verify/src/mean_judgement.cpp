@@ -1,0 +1,204 @@
+#include "mean_judgement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "distributions.h"
+#include "text.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+constexpr std::uint64_t kMinimumSamples = 1'000;
+constexpr std::uint64_t kEnoughEqualSamples = 20'000;
+constexpr std::uint64_t kEnoughZeros = 1u << 20;
+// Reached by a Bernoulli estimator after 400 hits; see docs/statistics.md for what it guarantees.
+constexpr double kSkewnessLimit = 0.05;
+constexpr double kShareLimit = 0.05;
+// A tail index of 2 or less means infinite variance.
+constexpr double kTailLimit = 2;
+
+/// @source Hall 1992, the transformation g of Section 2, in units of the standard error
+double hall(double u, double skewness) {
+  const double g = skewness;
+  return u + g * u * u / 3 + g * g * u * u * u / 27 + g / 6;
+}
+
+double hall_inverse(double z, double skewness) {
+  const double g = skewness;
+  if (std::abs(g) < 1e-9) return z;
+  return 3 * (std::cbrt(1 + g * (z - g / 6)) - 1) / g;
+}
+
+bool is_constant(const Evidence& e, double allowance) {
+  return e.standard_error == 0 || e.largest - e.smallest <= allowance;
+}
+
+bool is_all_zero(const Evidence& e) { return e.smallest == 0 && e.largest == 0; }
+
+/// Chance of nothing but zeros in n samples: X ≥ 0 with mean μ and second moment m₂ is positive
+/// with probability ≥ μ²/m₂ (Cauchy–Schwarz).
+double chance_of_zeros(const MeanQuestion& q, std::uint64_t n) {
+  const double m1_squared = q.reference * q.reference;
+  const double p = m1_squared / (q.exact_variance + m1_squared);
+  return std::exp(static_cast<double>(n) * std::log1p(-p));
+}
+
+/// Why no verdict may be given on skewed or scarce samples; empty if one may.
+std::string guard(const Evidence& e) {
+  if (e.samples < kMinimumSamples) {
+    return "only " + number(e.samples) + " samples; at least 1000 are needed";
+  }
+  if (!(std::abs(e.skewness) <= kSkewnessLimit)) {
+    return "the estimate is still skewed (" + number(e.skewness) +
+           ", limit 0.05): too few samples carry the sum";
+  }
+  if (!(e.largest_share <= kShareLimit)) {
+    return "one sample carries " + number(100 * e.largest_share) +
+           " % of the squared deviations (limit 5 %)";
+  }
+  return {};
+}
+
+/// Replaces the estimated error by the exact one.
+Evidence with_exact_variance(Evidence e, double variance) {
+  const double exact =
+      std::sqrt(variance / static_cast<double>(std::max<std::uint64_t>(e.samples, 1)));
+  const double ratio = exact > 0 ? e.standard_error / exact : 1;
+  e.standard_error = exact;
+  e.skewness *= ratio * ratio * ratio;
+  return e;
+}
+
+std::string exact_variance_doubt(const Evidence& estimated, const Evidence& exact) {
+  const double ratio = std::pow(estimated.standard_error / exact.standard_error, 2);
+  if (ratio >= 0.5 && ratio <= 2) return {};
+  return "the samples show " + number(ratio) +
+         " of the exact variance: part of the distribution has not been seen yet, or the exact "
+         "variance is wrong";
+}
+
+void judge_constant(const MeanQuestion& q, const Evidence& e, CheckResult& r) {
+  r.leaned_on = "all samples equal";
+  const double spread = std::isfinite(e.largest - e.smallest) ? e.largest - e.smallest : 0.0;
+  const double distance = std::abs(e.estimate - q.reference);
+  r.bound = distance + spread;
+  r.interval_low = e.estimate - spread;
+  r.interval_high = e.estimate + spread;
+  r.detectable = q.rounding_allowance + spread;
+  const bool differs = !(distance <= q.rounding_allowance + spread);
+  r.p_value = differs ? 0 : 1;
+  if (is_all_zero(e) && differs) {
+    const bool improbable = std::isfinite(q.exact_variance)
+                                ? chance_of_zeros(q, e.samples) <= q.fail_level
+                                : e.samples >= kEnoughZeros;
+    if (std::isfinite(q.exact_variance)) {
+      r.p_value = chance_of_zeros(q, e.samples);
+      r.leaned_on = "exact variance";
+    }
+    r.verdict = improbable ? Verdict::fail : Verdict::inconclusive;
+    r.reason = "all " + number(e.samples) + " samples were 0, the answer is " + number(q.reference);
+    if (!improbable) r.p_value = kNotApplicable;
+  } else if (e.samples < kEnoughEqualSamples) {
+    r.p_value = kNotApplicable;
+    r.reason = "all samples equal " + number(e.estimate) + "; 20000 are needed to trust that";
+  } else if (differs) {
+    r.verdict = Verdict::fail;
+    r.reason = "all samples equal " + number(e.estimate) + ", the answer is " + number(q.reference);
+  } else if (r.bound <= q.tolerance) {
+    r.verdict = Verdict::pass;
+  } else {
+    r.reason = "the rounding allowance exceeds the tolerance";
+  }
+}
+
+/// Smallest |bias| that ends in a fail with 99 % probability: it must be too large to pass (at the
+/// tolerance a pass has a chance of 0.1 %) and seen at the cap at the latest (with 99.1 %).
+double detectable_bias(const MeanQuestion& q, const Evidence& e) {
+  const double at_cap = e.standard_error * std::sqrt(static_cast<double>(e.samples) /
+                                                     static_cast<double>(q.max_samples));
+  const double seen = q.rounding_allowance +
+                      (normal_quantile(q.last_fail_level / 2) + normal_quantile(0.009)) * at_cap;
+  return std::max(q.tolerance, seen);
+}
+
+void judge_difference(const MeanQuestion& q, const Evidence& e, const std::string& doubt,
+                      CheckResult& r) {
+  const Interval pass = mean_interval(e, q.pass_level);
+  const Interval fail = mean_interval(e, q.fail_level / 2);
+  r.interval_low = pass.low;
+  r.interval_high = pass.high;
+  r.bound = std::max(pass.high - q.reference, q.reference - pass.low);
+  r.p_value = mean_p_value(e, q.reference);
+  r.detectable = detectable_bias(q, e);
+  if (!doubt.empty()) {
+    r.reason = doubt;
+  } else if (fail.low > q.reference + q.rounding_allowance ||
+             fail.high < q.reference - q.rounding_allowance) {
+    r.verdict = Verdict::fail;
+    r.reason = "estimate " + number(e.estimate) + " is " +
+               number(std::abs(e.estimate - q.reference) / e.standard_error) +
+               " standard errors from the answer " + number(q.reference);
+  } else if (!(r.bound <= q.tolerance)) {
+    r.reason = "neither a difference nor |bias| <= " + number(q.tolerance) + " is proven after " +
+               number(e.samples) + " samples";
+  } else if (!(e.tail_index > kTailLimit)) {
+    r.reason = "the largest samples fall off with index " + number(e.tail_index) +
+               " or less: the variance looks infinite";
+  } else {
+    r.verdict = Verdict::pass;
+  }
+}
+
+}  // namespace
+
+Interval mean_interval(const Evidence& e, double level) {
+  const double z = normal_quantile(level);
+  const double below = std::max(z, hall_inverse(z, e.skewness));
+  const double above = std::max(z, -hall_inverse(-z, e.skewness));
+  return {e.estimate - below * e.standard_error, e.estimate + above * e.standard_error};
+}
+
+double mean_p_value(const Evidence& e, double reference) {
+  const double u = (e.estimate - reference) / e.standard_error;
+  if (std::isnan(u)) return 1;  // no error and no difference
+  const double corrected = hall(u, e.skewness);
+  const double z = corrected * u > 0 ? std::min(std::abs(u), std::abs(corrected)) : 0.0;
+  return std::min(1.0, 2 * normal_tail(z));
+}
+
+CheckResult judge_mean(const MeanQuestion& q, const Evidence& seen) {
+  CheckResult r;
+  r.estimate = seen.estimate;
+  r.reference = q.reference;
+  r.tolerance = q.tolerance;
+  r.samples = seen.samples;
+  r.figures = {{"standard error", seen.standard_error},
+               {"skewness of the estimate", seen.skewness},
+               {"largest share", seen.largest_share},
+               {"rejected", static_cast<double>(seen.rejected)},
+               {"non-finite", static_cast<double>(seen.non_finite)}};
+  if (seen.non_finite > 0 || !std::isfinite(seen.estimate) || !std::isfinite(seen.standard_error)) {
+    r.verdict = Verdict::fail;
+    r.reason = number(seen.non_finite) + " of " + number(seen.samples + seen.non_finite) +
+               " samples were not finite";
+    return r;
+  }
+  const bool exact = std::isfinite(q.exact_variance);
+  if (is_constant(seen, q.rounding_allowance)) {
+    judge_constant(q, seen, r);
+    return r;
+  }
+  const Evidence e = exact ? with_exact_variance(seen, q.exact_variance) : seen;
+  r.leaned_on = exact ? "exact variance" : "skewness guard";
+  std::string doubt = guard(e);
+  if (doubt.empty() && exact) doubt = exact_variance_doubt(seen, e);
+  if (std::isinf(q.exact_variance)) doubt = "the variance is known to be infinite";
+  judge_difference(q, e, doubt, r);
+  return r;
+}
+
+}  // namespace plumbline::verify
