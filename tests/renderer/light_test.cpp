@@ -77,10 +77,11 @@ TEST(SphereLight, SolidAngleIsRightToSixDigitsInFloatHoweverSmallTheCone) {
   for (int exponent = -23; exponent <= -1; ++exponent) {
     const float radius = std::ldexp(1.0f, exponent);
     const SphereLight light{{0, 0, 1}, radius, false, {1, 1, 1}};
-    const long double x = static_cast<long double>(radius) * radius;
+    const long double x = sqr(static_cast<long double>(radius));
     const long double solid_angle = 2 * pi<long double>() * x / (1 + std::sqrt(1 - x));
     const float pdf_w = light.pdf(Vec3f{}, Vec3f{0, 0, 1});
-    EXPECT_NEAR(static_cast<double>(pdf_w * solid_angle), 1, 1e-6) << "R/d = 2^" << exponent;
+    EXPECT_NEAR(static_cast<double>(static_cast<long double>(pdf_w) * solid_angle), 1, 1e-6)
+        << "R/d = 2^" << exponent;
     const auto sample = light.sample(Vec3f{}, Vec2f{0.5f, 0.25f});
     ASSERT_TRUE(sample);
     EXPECT_EQ(sample->pdf_w, pdf_w);
