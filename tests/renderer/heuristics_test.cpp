@@ -40,10 +40,10 @@ TEST(MisWeight, ZeroDensityGivesZeroWeightAndAllToTheOther) {
 }
 
 TEST(MisWeight, ValuesAreThoseOfTheDefinitions) {
-  EXPECT_DOUBLE_EQ(balance_heuristic(1.0, 10.0), 1.0 / 11);
-  EXPECT_DOUBLE_EQ(balance_heuristic(10.0, 1.0), 10.0 / 11);
-  EXPECT_DOUBLE_EQ(power_heuristic(1.0, 3.0), 1.0 / 10);
-  EXPECT_DOUBLE_EQ(power_heuristic(3.0, 1.0), 9.0 / 10);
+  EXPECT_DOUBLE_EQ(mis_weight(Heuristic::balance, 1.0, 10.0), 1.0 / 11);
+  EXPECT_DOUBLE_EQ(mis_weight(Heuristic::balance, 10.0, 1.0), 10.0 / 11);
+  EXPECT_DOUBLE_EQ(mis_weight(Heuristic::power, 1.0, 3.0), 1.0 / 10);
+  EXPECT_DOUBLE_EQ(mis_weight(Heuristic::power, 3.0, 1.0), 9.0 / 10);
 }
 
 TEST(MisWeight, SquaringTheDensitiesWouldFail) {

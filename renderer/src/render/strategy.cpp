@@ -35,6 +35,10 @@ std::string_view name(Heuristic heuristic) {
       return "balance";
     case Heuristic::power:
       return "power";
+    case Heuristic::cutoff:
+      return "cutoff";
+    case Heuristic::maximum:
+      return "maximum";
   }
   return "?";
 }
