@@ -68,6 +68,10 @@ struct CameraDescription {
   int width = 256, height = 256;
 };
 
+struct FilmSize {
+  int width = 0, height = 0;  ///< [pixels]
+};
+
 /// `depth` counts as in Mitsuba 3: 1 is directly visible emission, 2 adds direct light, −1 is
 /// unlimited.
 struct IntegratorDescription {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include <plumbline/renderer/scene/description.h>
@@ -11,10 +12,11 @@ namespace plumbline::renderer {
 /// Reads a scene file in the subset of Mitsuba 3's XML that docs/scene_format.md lists.
 ///
 /// @param overrides  values for the file's <default> parameters, by name (the command's -D)
+/// @param size       film size in place of the file's; the field of view stays along its axis
 /// @throws InputError "file:line: what and why" for anything outside the subset, naming the element
-/// or
-///         attribute and the nearest supported name; never crashes or hangs on hostile input
+///         or attribute and the nearest supported name; never crashes or hangs on hostile input
 SceneDescription load_scene(const std::filesystem::path& file,
-                            const std::map<std::string, std::string>& overrides = {});
+                            const std::map<std::string, std::string>& overrides = {},
+                            std::optional<FilmSize> size = std::nullopt);
 
 }  // namespace plumbline::renderer
