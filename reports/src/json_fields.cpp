@@ -1,5 +1,6 @@
 #include "json_fields.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumbline::reports::detail {
@@ -22,7 +23,10 @@ Json parse_json(std::string_view text) {
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {
-    throw FormatError(std::string("not JSON, or only a part of it: ") + error.what());
+    const std::string_view what =
+        error.what();  // "[json.exception.parse_error.101] parse error at …"
+    throw FormatError("not JSON, or only a part of it: " +
+                      std::string(what.substr(std::min(what.find("] ") + 2, what.size()))));
   }
 }
 

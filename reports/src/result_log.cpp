@@ -9,10 +9,8 @@
 namespace plumbline::reports {
 namespace {
 
-constexpr const char* kEnvironmentFile = "environment.jsonl";
-
 int open_for_append(const std::filesystem::path& path, int extra_flags) {
-  return ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | extra_flags, 0666);
+  return ::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | extra_flags, 0666);
 }
 
 void write_line(int file, std::string line, const std::filesystem::path& path) {
@@ -27,21 +25,11 @@ void write_line(int file, std::string line, const std::filesystem::path& path) {
   throw std::system_error(errno != 0 ? errno : ENOSPC, std::generic_category(), path.string());
 }
 
-/// Of all processes that log into a directory, the first one notes the environment.
-void note_environment_once(const std::filesystem::path& directory) {
-  const std::filesystem::path path = directory / kEnvironmentFile;
-  const int file = open_for_append(path, O_EXCL);
-  if (file < 0) {
-    if (errno == EEXIST) return;
-    throw std::system_error(errno, std::generic_category(), path.string());
-  }
-  try {
-    write_line(file, to_json(current_environment()), path);
-  } catch (...) {
-    ::close(file);
-    throw;
-  }
-  ::close(file);
+/// Whether a process died in the middle of its last line.
+bool ends_torn(int file) {
+  const off_t size = ::lseek(file, 0, SEEK_END);
+  char last = '\n';
+  return size > 0 && ::pread(file, &last, 1, size - 1) == 1 && last != '\n';
 }
 
 }  // namespace
@@ -49,9 +37,17 @@ void note_environment_once(const std::filesystem::path& directory) {
 ResultLog::ResultLog(const std::filesystem::path& directory, std::string_view name)
     : path_(directory / (std::string(name) + ".jsonl")) {
   std::filesystem::create_directories(directory);
-  note_environment_once(directory);
-  file_ = open_for_append(path_, 0);
+  file_ = open_for_append(path_, O_EXCL);
+  const bool is_new = file_ >= 0;
+  if (!is_new) file_ = open_for_append(path_, 0);
   if (file_ < 0) throw std::system_error(errno, std::generic_category(), path_.string());
+  try {
+    if (is_new) append(current_environment());
+    if (ends_torn(file_)) append_line("");  // or the next record would be lost with the torn one
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
 }
 
 ResultLog::~ResultLog() { ::close(file_); }

@@ -26,7 +26,7 @@ verify::CheckResult parse_check(std::string_view json);
 /// to a file opened with O_APPEND: concurrent processes do not tear each other's lines.
 class ResultLog {
  public:
-  /// Makes the directory if it is missing. The first log in it also notes the environment.
+  /// Makes the directory if it is missing. Who creates the file notes the environment in it.
   ///
   /// @throws std::system_error where that is impossible
   ResultLog(const std::filesystem::path& directory, std::string_view name);
