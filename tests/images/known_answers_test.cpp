@@ -26,8 +26,9 @@ struct Case {
   Heuristic heuristic;
 
   std::string subject() const {
-    std::string text = std::string(scene->name) + "/" + std::string(name(strategy));
-    if (uses_heuristic(strategy)) text += "/" + std::string(name(heuristic));
+    std::string text(scene->name);
+    text.append("/").append(name(strategy));
+    if (uses_heuristic(strategy)) text.append("/").append(name(heuristic));
     return text;
   }
 };
@@ -81,14 +82,14 @@ TEST_P(KnownAnswer, BiasIsProvenSmall) {
       path_samples(scene, path_options(description, c.strategy, c.heuristic), options.seed)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, KnownAnswer, testing::ValuesIn(all_cases()),
-                         [](const testing::TestParamInfo<Case>& info) {
-                           std::string text = info.param.subject();
-                           std::replace_if(
-                               text.begin(), text.end(),
-                               [](char c) { return c == '/' || c == '-'; }, '_');
-                           return text;
-                         });
+std::string test_name(const testing::TestParamInfo<Case>& info_of_case) {
+  std::string text = info_of_case.param.subject();
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '/' || c == '-'; }, '_');
+  return text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, KnownAnswer, testing::ValuesIn(all_cases()), test_name);
 
 /// The truncated furnace is the test of the path tracer's bookkeeping: every depth has its own
 /// answer.
@@ -99,8 +100,8 @@ TEST(KnownAnswerAtDepth, FurnaceIsThePartialSumOfTheGeometricSeries) {
   for (int depth = 1; depth <= 5; ++depth) {
     for (const Strategy strategy : renderer::kStrategies) {
       verify::MeanOptions options;
-      options.subject =
-          "furnace_sphere/depth " + std::to_string(depth) + "/" + std::string(name(strategy));
+      options.subject = "furnace_sphere/depth ";
+      options.subject.append(std::to_string(depth)).append("/").append(name(strategy));
       options.reference = make_oracle(known, {}, std::nullopt, depth)->image_mean().value;
       options.tolerance = tolerance();
       options.seed = check_seed(options.subject);
@@ -134,7 +135,8 @@ TEST(StrategiesAgree, LightOnlyBsdfOnlyAndMisHaveTheSameMean) {
                                {Strategy::one_sample, Strategy::mis}};
   for (const auto& [a, b] : pairs) {
     verify::MeanOptions options;
-    options.subject = "sphere_light/" + std::string(name(a)) + " = " + std::string(name(b));
+    options.subject = "sphere_light/";
+    options.subject.append(name(a)).append(" = ").append(name(b));
     options.tolerance = 0.01;
     options.max_samples = std::uint64_t{1} << 28;
     options.seed = check_seed(options.subject);

@@ -55,8 +55,8 @@ class BenchScene {
 void expect_ratio(const BenchScene& scene, Strategy a, Strategy b, double at_least, double at_most,
                   verify::Verdict expected = verify::Verdict::pass) {
   verify::VarianceRatioOptions options;
-  options.subject = scene.name() + "/" + std::string(name(a)) + " over " + std::string(name(b));
-  if (expected == verify::Verdict::fail) options.subject = "control/" + options.subject;
+  if (expected == verify::Verdict::fail) options.subject = "control/";
+  options.subject.append(scene.name()).append("/").append(name(a)).append(" over ").append(name(b));
   options.at_least = at_least;
   options.at_most = at_most;
   options.expected = expected;

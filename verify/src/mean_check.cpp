@@ -107,8 +107,9 @@ CheckResult check_mean(const MeanOptions& options, const MomentSampler& sampler)
   std::uint64_t drawn = 0;
   while (!check.done()) {
     const std::uint64_t count = check.samples_wanted();
-    check.add(sampler(drawn, count));
-    if (count != 0 && check.samples_wanted() == count) {
+    const Moments batch = sampler(drawn, count);
+    check.add(batch);
+    if (batch.count() + batch.non_finite() == 0) {
       throw std::runtime_error("mean check '" + options.subject +
                                "': the sampler added no samples");
     }
