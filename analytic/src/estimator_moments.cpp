@@ -21,14 +21,16 @@ struct Source {
 
 /// ∫ p_i(x) g(x) dx over the support of p_i.
 Quadrature expectation(const Integral1d& integral, std::size_t i, const std::vector<double>& breaks,
-                       const std::function<double(double)>& g) {
+                       const std::function<double(double)>& g, double noise) {
   const Density1d& density = integral.densities[i];
   const auto integrand = [&](double x) {
     const double p = density.pdf_x(x);
     return p > 0 ? p * g(x) : 0;
   };
-  return integrate_pieces(integrand, make_cuts(std::max(integral.low, density.low),
-                                               std::min(integral.high, density.high), breaks));
+  return integrate_pieces(
+      integrand,
+      make_cuts(std::max(integral.low, density.low), std::min(integral.high, density.high), breaks),
+      noise);
 }
 
 /// Moments of one draw from a mixture of sources, central ones about the mean: no cancellation, so
@@ -40,19 +42,24 @@ Moments draw_moments(const Integral1d& integral, const std::vector<Source>& sour
     breaks.push_back(density.low);
     breaks.push_back(density.high);
   }
-  const auto moment = [&](const std::function<double(double)>& of_value) {
+  const auto moment = [&](const std::function<double(double)>& of_value, double noise) {
     Quadrature sum;
     for (const Source& source : sources) {
-      const Quadrature q = expectation(integral, source.index, breaks,
-                                       [&](double x) { return of_value(source.value(x)); });
+      const Quadrature q = expectation(
+          integral, source.index, breaks, [&](double x) { return of_value(source.value(x)); },
+          noise);
       sum.value += source.probability * q.value;
       sum.error += source.probability * q.error;
     }
     return sum;
   };
-  const double mean = moment([](double g) { return g; }).value;
-  const Quadrature variance = moment([=](double g) { return (g - mean) * (g - mean); });
-  const double fourth = moment([=](double g) { return std::pow(g - mean, 4); }).value;
+  const double mean = moment([](double g) { return g; }, 1e-16 * integral.value).value;
+  // g − mean is a few ulp of the integral off: where g hardly varies, its powers are made of that.
+  const double scale = integral.value * integral.value;
+  const double noise = 1e-17 * scale;
+  const Quadrature variance = moment([=](double g) { return (g - mean) * (g - mean); }, noise);
+  const double fourth =
+      moment([=](double g) { return std::pow(g - mean, 4); }, noise * scale).value;
   return {mean, variance.value, fourth, variance.error};
 }
 

@@ -1,31 +1,54 @@
 #include "piecewise.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 namespace plumbline::analytic {
 
-Quadrature integrate_smooth(const std::function<double(double)>& f, double a, double b) {
+namespace {
+
+using Function = std::function<double(double)>;
+
+constexpr double kTolerance = 1e-13;  // relative to the whole piece
+constexpr int kMaxRefinements = 16;
+
+/// One application of the rule. On [−1, 1], because Boost 1.74 states the error per unit of length.
+Quadrature apply_rule(const Function& f, double a, double b) {
   using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
-  constexpr unsigned kMaxRefinements = 12;
-  constexpr double kTolerance = 1e-12;
   const double middle = 0.5 * (a + b);
   const double half = 0.5 * (b - a);
-  // On [−1, 1], because Boost 1.74 compares an error per unit of length with a tolerance on the
-  // integral: on a short interval it would refine to the end, and report an error far too large.
   Quadrature result;
   result.value = half * Rule::integrate([&](double t) { return f(middle + half * t); }, -1.0, 1.0,
-                                        kMaxRefinements, kTolerance, &result.error);
+                                        0, 0.0, &result.error);
   result.error *= half;
   return result;
 }
 
-Quadrature integrate_pieces(const std::function<double(double)>& f,
-                            const std::vector<double>& cuts) {
+Quadrature refine(const Function& f, double a, double b, const Quadrature& coarse, double tolerance,
+                  int refinements) {
+  if (coarse.error <= tolerance || refinements == 0) return coarse;
+  const double middle = 0.5 * (a + b);
+  const Quadrature left =
+      refine(f, a, middle, apply_rule(f, a, middle), 0.5 * tolerance, refinements - 1);
+  const Quadrature right =
+      refine(f, middle, b, apply_rule(f, middle, b), 0.5 * tolerance, refinements - 1);
+  return {left.value + right.value, left.error + right.error};
+}
+
+}  // namespace
+
+Quadrature integrate_smooth(const Function& f, double a, double b, double noise) {
+  const Quadrature coarse = apply_rule(f, a, b);
+  return refine(f, a, b, coarse, std::max(kTolerance * std::abs(coarse.value), noise),
+                kMaxRefinements);
+}
+
+Quadrature integrate_pieces(const Function& f, const std::vector<double>& cuts, double noise) {
   Quadrature sum;
   for (std::size_t i = 1; i < cuts.size(); ++i) {
-    const Quadrature piece = integrate_smooth(f, cuts[i - 1], cuts[i]);
+    const Quadrature piece = integrate_smooth(f, cuts[i - 1], cuts[i], noise);
     sum.value += piece.value;
     sum.error += piece.error;
   }
