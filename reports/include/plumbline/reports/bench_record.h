@@ -19,6 +19,8 @@ struct SpeedPoint {
   double rel_mse_low = 0;  ///< 95 % confidence interval over the replicates
   double rel_mse_high = 0;
   std::uint64_t replicates = 0;  ///< independent renders behind the numbers
+
+  bool operator==(const SpeedPoint&) const = default;
 };
 
 /// What a shadow ray costs: the same rays asked "is anything in the way?" and "what is nearest?".
@@ -34,6 +36,8 @@ struct RayCost {
   double ratio = 0;              ///< occluded over intersect, median of interleaved repetitions
   double ratio_low = 0;          ///< 95 % confidence interval
   double ratio_high = 0;
+
+  bool operator==(const RayCost&) const = default;
 };
 
 std::string to_json(const SpeedPoint& point);

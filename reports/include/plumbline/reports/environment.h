@@ -22,6 +22,8 @@ struct RunEnvironment {
 
   /// Same build on the same machine: everything but load, time and libraries.
   bool same_build(const RunEnvironment& other) const;
+
+  bool operator==(const RunEnvironment&) const = default;
 };
 
 /// This build, on this machine, now. Without /proc or git the fields concerned are "unknown".

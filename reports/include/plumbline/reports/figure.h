@@ -9,6 +9,8 @@ namespace plumbline::reports {
 struct FigureAxis {
   std::string label;  ///< quantity and unit: "time [s]"
   bool log = false;   ///< points that are not > 0 are left out
+
+  bool operator==(const FigureAxis&) const = default;
 };
 
 enum class SeriesStyle {
@@ -23,6 +25,8 @@ struct FigureSeries {
   std::vector<double> x, y;  ///< same length; a NaN in y is a gap
   std::vector<double> low,
       high;  ///< intervals of y, drawn as bars; both empty or both as long as y
+
+  bool operator==(const FigureSeries&) const = default;
 };
 
 /// A plot on the page. JSON format "plumbline.figure/1".
@@ -32,6 +36,8 @@ struct Figure {
   std::string caption;  ///< what to look for
   FigureAxis x, y;
   std::vector<FigureSeries> series;
+
+  bool operator==(const Figure&) const = default;
 };
 
 /// @throws FormatError where the lengths of a series disagree

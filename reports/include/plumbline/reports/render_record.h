@@ -29,6 +29,8 @@ struct RenderRecord {
   int threads = 0;
   std::filesystem::path image;  ///< the EXR; in the file relative to it; empty if none was kept
   std::map<std::string, std::string> parameters;  ///< scene parameters set by -D
+
+  bool operator==(const RenderRecord&) const = default;
 };
 
 std::string to_json(const RenderRecord& record);

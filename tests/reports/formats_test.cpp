@@ -1,0 +1,201 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "samples.h"
+
+namespace plumbline::tests {
+namespace {
+
+using Json = nlohmann::json;
+using reports::FormatError;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The message with which a text is refused; empty if it is taken.
+std::string refusal_of_check(const std::string& text) {
+  try {
+    reports::parse_check(text);
+    return {};
+  } catch (const FormatError& error) {
+    return error.what();
+  }
+}
+
+/// A check's JSON with one field replaced.
+std::string check_with(const char* field, const Json& value) {
+  Json json = Json::parse(reports::to_json(sample_check()));
+  json[field] = value;
+  return json.dump();
+}
+
+TEST(Formats, EveryRecordSurvivesTheRoundTrip) {
+  using namespace reports;
+  EXPECT_EQ(parse_environment(to_json(sample_environment())), sample_environment());
+  EXPECT_EQ(parse_render_record(to_json(sample_render())), sample_render());
+  EXPECT_EQ(parse_speed_point(to_json(sample_speed_point())), sample_speed_point());
+  EXPECT_EQ(parse_ray_cost(to_json(sample_ray_cost())), sample_ray_cost());
+  EXPECT_EQ(parse_figure(to_json(sample_figure())), sample_figure());
+}
+
+TEST(Formats, CheckIsReadBackFieldByField) {
+  const verify::CheckResult in = sample_check();
+  const verify::CheckResult out = reports::parse_check(reports::to_json(in));
+  EXPECT_EQ(out.check, in.check);
+  EXPECT_EQ(out.subject, in.subject);
+  EXPECT_EQ(out.verdict, in.verdict);
+  EXPECT_EQ(out.expected, in.expected);
+  EXPECT_EQ(out.estimate, in.estimate);
+  EXPECT_EQ(out.reference, in.reference);
+  EXPECT_EQ(out.tolerance, in.tolerance);
+  EXPECT_EQ(out.bound, in.bound);
+  EXPECT_EQ(out.detectable, in.detectable);
+  EXPECT_EQ(out.p_value, in.p_value);
+  EXPECT_EQ(out.interval_low, in.interval_low);
+  EXPECT_EQ(out.interval_high, in.interval_high);
+  EXPECT_EQ(out.samples, in.samples);
+  EXPECT_EQ(out.seconds, in.seconds);
+  EXPECT_EQ(out.leaned_on, in.leaned_on);
+  EXPECT_EQ(out.reason, in.reason);
+  EXPECT_EQ(out.diagnosis, in.diagnosis);
+  EXPECT_EQ(out.seed, in.seed);
+  EXPECT_EQ(out.replay, in.replay);
+  EXPECT_EQ(out.figures, in.figures);
+}
+
+TEST(Formats, RenderRecordHoldsWhatTheCommandPromises) {
+  const Json json = Json::parse(reports::to_json(sample_render()));
+  EXPECT_EQ(json["format"], "plumbline.render/1");
+  for (const char* field : {"scene", "strategy", "spp", "seconds", "camera_rays", "bounce_rays",
+                            "shadow_rays", "rejected", "non_finite", "mean", "seed", "version"}) {
+    EXPECT_TRUE(json.contains(field)) << field;
+  }
+  EXPECT_EQ(json["seed"].get<std::uint64_t>(), 18'446'744'073'709'551'614u);
+}
+
+TEST(Formats, EachStatesItsFormatFirstOnOneLine) {
+  using namespace reports;
+  const std::pair<std::string, std::string> cases[] = {
+      {to_json(sample_check()), "plumbline.check/1"},
+      {to_json(sample_environment()), "plumbline.environment/1"},
+      {to_json(sample_render()), "plumbline.render/1"},
+      {to_json(sample_speed_point()), "plumbline.speed/1"},
+      {to_json(sample_ray_cost()), "plumbline.ray_cost/1"},
+      {to_json(sample_figure()), "plumbline.figure/1"},
+  };
+  for (const auto& [text, format] : cases) {
+    EXPECT_EQ(text.rfind("{\"format\":\"" + format + "\"", 0), 0u) << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    EXPECT_EQ(Json::parse(text)["format"], format);
+  }
+}
+
+TEST(Formats, NotANumberIsNullAndInfinityIsAWord) {
+  verify::CheckResult check = sample_check();
+  check.bound = kInfinity;
+  check.interval_low = -kInfinity;
+  check.p_value = verify::kNotApplicable;
+  check.figures = {{"skewness", std::nan("")}};
+  const std::string text = reports::to_json(check);
+  const Json json = Json::parse(text);
+  EXPECT_EQ(json["bound"], "inf");
+  EXPECT_EQ(json["interval_low"], "-inf");
+  EXPECT_TRUE(json["p_value"].is_null());
+  const verify::CheckResult out = reports::parse_check(text);
+  EXPECT_EQ(out.bound, kInfinity);
+  EXPECT_EQ(out.interval_low, -kInfinity);
+  EXPECT_TRUE(std::isnan(out.p_value));
+  EXPECT_TRUE(std::isnan(out.figures.at(0).second));
+}
+
+TEST(Formats, TextsKeepQuotesLineBreaksUnicodeAndMarkup) {
+  verify::CheckResult check = sample_check();
+  check.reason = "θ = 89.9°, \"quoted\"\n\ttabbed \\ </script><!-- 日本 \U0001F4CF";
+  EXPECT_EQ(reports::parse_check(reports::to_json(check)).reason, check.reason);
+}
+
+TEST(Formats, TextThatIsNotUtf8IsReplacedNotThrownAt) {
+  verify::CheckResult check = sample_check();
+  check.reason = "bad byte: \xff";
+  EXPECT_EQ(reports::parse_check(reports::to_json(check)).reason, "bad byte: \uFFFD");
+}
+
+TEST(Formats, UnknownVersionIsRefusedByName) {
+  EXPECT_EQ(
+      refusal_of_check(check_with("format", "plumbline.check/2")),
+      "format \"plumbline.check/2\" is not \"plumbline.check/1\", the one that this version reads");
+  EXPECT_EQ(refusal_of_check(reports::to_json(sample_render())),
+            "format \"plumbline.render/1\" is not \"plumbline.check/1\", the one that this version "
+            "reads");
+}
+
+TEST(Formats, FieldAtFaultIsNamed) {
+  EXPECT_EQ(refusal_of_check(check_with("samples", -1)),
+            "field \"samples\": not a whole number >= 0");
+  EXPECT_EQ(refusal_of_check(check_with("samples", 1.5)),
+            "field \"samples\": not a whole number >= 0");
+  EXPECT_EQ(refusal_of_check(check_with("bound", "small")), "field \"bound\": not a number");
+  EXPECT_EQ(refusal_of_check(check_with("subject", 3)), "field \"subject\": not a text");
+  EXPECT_EQ(refusal_of_check(check_with("verdict", "maybe")),
+            "field \"verdict\": unknown word \"maybe\"");
+  EXPECT_EQ(refusal_of_check(check_with("figures", Json::array({"bins"}))),
+            "field \"figures\": not a pair of name and number");
+}
+
+TEST(Formats, MissingFieldIsNamed) {
+  Json json = Json::parse(reports::to_json(sample_check()));
+  json.erase("verdict");
+  EXPECT_EQ(refusal_of_check(json.dump()), "field \"verdict\" is missing");
+}
+
+TEST(Formats, IntegersBeyond32BitsAreRefused) {
+  Json json = Json::parse(reports::to_json(sample_render()));
+  for (const std::int64_t value : {std::int64_t{1} << 31, -(std::int64_t{1} << 31) - 1}) {
+    json["max_depth"] = value;
+    EXPECT_THROW(reports::parse_render_record(json.dump()), FormatError) << value;
+  }
+  json["max_depth"] = -1;
+  EXPECT_EQ(reports::parse_render_record(json.dump()).max_depth, -1);
+}
+
+TEST(Formats, EveryBeginningOfALineIsRefused) {
+  const std::string text = reports::to_json(sample_check());
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    EXPECT_NE(refusal_of_check(text.substr(0, length)), "") << length;
+  }
+}
+
+TEST(Formats, WhatIsNotAnObjectIsRefused) {
+  for (const char* text :
+       {"", "null", "[]", "3", "\"plumbline.check/1\"", "{}", "{\"format\":3}"}) {
+    EXPECT_NE(refusal_of_check(text), "") << text;
+  }
+}
+
+TEST(Formats, FigureWhoseSeriesDisagreeInLengthIsRefused) {
+  for (const auto damage : {0, 1, 2}) {
+    reports::Figure figure = sample_figure();
+    if (damage == 0) figure.series[0].y.pop_back();
+    if (damage == 1) figure.series[0].high.clear();
+    if (damage == 2) figure.series[1].low = {1};
+    EXPECT_THROW(reports::to_json(figure), FormatError) << damage;
+  }
+}
+
+TEST(Formats, EnvironmentOfThisBuildIsFilledIn) {
+  const reports::RunEnvironment environment = reports::current_environment();
+  EXPECT_FALSE(environment.version.empty());
+  EXPECT_TRUE(environment.commit == "unknown" || environment.commit.size() == 40)
+      << environment.commit;
+  EXPECT_NE(environment.compiler, "unknown");
+  EXPECT_GT(environment.cores, 0);
+  EXPECT_GE(environment.load_average, 0);
+  EXPECT_EQ(environment.time.size(), std::string("2024-02-29T12:00:00Z").size());
+  EXPECT_TRUE(environment.same_build(reports::current_environment()));
+}
+
+}  // namespace
+}  // namespace plumbline::tests

@@ -1,0 +1,229 @@
+#include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <plumbline/reports/page.h>
+
+#include "samples.h"
+
+namespace plumbline::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using reports::make_page;
+using reports::PageInput;
+
+PageInput sample_input() {
+  PageInput input;
+  input.results.checks = {sample_check()};
+  input.results.environments = {sample_environment()};
+  input.results.renders = {sample_render()};
+  input.results.speed = {sample_speed_point()};
+  input.results.ray_costs = {sample_ray_cost()};
+  input.results.figures = {sample_figure()};
+  input.images = {{"furnace_sphere", "mis, power", 1, 1, {0.5f, 0.25f, 0.125f}}};
+  return input;
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// The text between two others, the first time they occur.
+std::string between(const std::string& text, const std::string& open, const std::string& close) {
+  const std::size_t begin = text.find(open);
+  if (begin == std::string::npos) return {};
+  const std::size_t from = begin + open.size();
+  return text.substr(from, text.find(close, from) - from);
+}
+
+/// What a browser takes for the data: up to the first `</script`, whatever stands in it.
+Json data_of(const std::string& page) {
+  return Json::parse(between(page, "<script type=\"application/json\" id=\"data\">", "</script"));
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+std::vector<std::uint8_t> decode_base64(const std::string& text) {
+  static const std::string kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::uint8_t> bytes;
+  std::uint32_t bits = 0;
+  int held = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<std::uint32_t>(kDigits.find(c));
+    held += 6;
+    if (held >= 8) {
+      held -= 8;
+      bytes.push_back(static_cast<std::uint8_t>(bits >> held));
+    }
+  }
+  return bytes;
+}
+
+TEST(Page, HoldsEveryRecordOfTheResults) {
+  const Json data = data_of(make_page(sample_input()));
+  EXPECT_EQ(data["checks"][0]["subject"], "furnace_sphere/mis/power");
+  EXPECT_EQ(data["checks"][0]["as_expected"], false);
+  EXPECT_EQ(data["summary"]["unexpected"], 1);
+  EXPECT_EQ(data["environments"][0]["commit"], "0123456789abcdef");
+  EXPECT_EQ(data["renders"][0]["scene"], "furnace_sphere");
+  EXPECT_EQ(data["speed"][0]["curves"][0]["strategy"], "one-sample");
+  EXPECT_EQ(data["ray_costs"][0]["ratio"], 0.75);
+  EXPECT_EQ(data["figures"][0]["title"], "Error against samples");
+  EXPECT_EQ(data["images"][0]["group"], "furnace_sphere");
+}
+
+TEST(Page, SeedsAreTextBecauseTheBrowserWouldRoundThem) {
+  const Json data = data_of(make_page(sample_input()));
+  EXPECT_EQ(data["checks"][0]["seed"], "18446744073709551615");
+  EXPECT_EQ(data["renders"][0]["seed"], "18446744073709551614");
+}
+
+TEST(Page, IsSelfContained) {
+  const std::string page = make_page(sample_input());
+  const std::regex fetch(R"((src|href|action|data)\s*=\s*["']?\s*(https?:|//|file:|\.{0,2}/))");
+  EXPECT_FALSE(std::regex_search(between(page, "<!doctype", "<script"), fetch));
+  for (const char* text : {"<script src", "@import", "url(", "<img", "<iframe", "fetch(",
+                           "XMLHttpRequest", "sourceMappingURL", "import("}) {
+    EXPECT_EQ(page.find(text), std::string::npos) << text;
+  }
+  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+  EXPECT_NE(page.find("Chart.js v"), std::string::npos) << "the plots' library, with its notice";
+  for (const char* part : {"{{css}}", "{{data}}", "{{chart}}", "{{script}}"}) {
+    EXPECT_EQ(page.find(part), std::string::npos) << part;
+  }
+}
+
+TEST(Page, NoTextCanEndTheScriptThatHoldsIt) {
+  const std::string plain = make_page(sample_input());
+  PageInput input = sample_input();
+  const std::string hostile = "</script><script>alert(1)</script><!--<script>{{css}}\u2028";
+  input.results.checks[0].reason = hostile;
+  input.results.figures[0].title = hostile;
+  input.results.renders[0].parameters = {{hostile, hostile}};
+  input.results.warnings = {{"a.jsonl", 1, hostile}};
+  input.images[0].name = hostile;
+  const std::string page = make_page(input);
+  for (const char* markup : {"<script", "</script", "<!--"}) {
+    EXPECT_EQ(count_of(page, markup), count_of(plain, markup)) << markup;
+  }
+  EXPECT_EQ(data_of(page)["checks"][0]["reason"], hostile);
+  EXPECT_EQ(data_of(page)["images"][0]["name"], hostile);
+}
+
+TEST(Page, PixelsArriveBitForBit) {
+  const std::vector<float> values{0.0f,   -0.0f,       1.0f,
+                                  1e-40f, 3.4e38f,     std::numeric_limits<float>::infinity(),
+                                  0.1f,   16777217.0f, 2.0f};
+  for (const std::size_t pixels : {1u, 2u, 3u}) {  // every length of base64's last group
+    PageInput input = sample_input();
+    input.images[0] = {"scene",
+                       "mis",
+                       static_cast<int>(pixels),
+                       1,
+                       {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(3 * pixels)}};
+    const Json image = data_of(make_page(input))["images"][0];
+    const std::vector<std::uint8_t> bytes = decode_base64(image["data"].get<std::string>());
+    ASSERT_EQ(bytes.size(), 12 * pixels);
+    EXPECT_EQ(std::memcmp(bytes.data(), input.images[0].rgb.data(), bytes.size()), 0);
+  }
+}
+
+TEST(Page, ImageWhoseSizeAndDataDisagreeIsRefused) {
+  PageInput input = sample_input();
+  input.images[0].rgb.pop_back();
+  EXPECT_THROW(make_page(input), std::invalid_argument);
+  input.images[0] = {"scene", "mis", 0, 0, {}};
+  EXPECT_THROW(make_page(input), std::invalid_argument);
+}
+
+/// relMSE = 0.09/t, so the error is 0.3·t^(−1/2).
+TEST(Page, SlopeOfErrorAgainstTimeIsFittedPerCurve) {
+  PageInput input;
+  for (const char* strategy : {"bsdf", "mis"}) {
+    for (double seconds = 0.25; seconds < 100; seconds *= 4) {
+      reports::SpeedPoint point = sample_speed_point();
+      point.strategy = strategy;
+      point.seconds = seconds;
+      point.rel_mse = 0.09 / seconds * (strategy[0] == 'm' ? 0.25 : 1);
+      point.rel_mse_low = 0.8 * point.rel_mse;
+      point.rel_mse_high = point.rel_mse / 0.8;
+      input.results.speed.push_back(point);
+    }
+  }
+  const Json curves = data_of(make_page(input))["speed"][0]["curves"];
+  ASSERT_EQ(curves.size(), 2u);
+  EXPECT_EQ(curves[0]["strategy"], "bsdf");
+  EXPECT_NEAR(curves[0]["slope"].get<double>(), -0.5, 1e-12);
+  EXPECT_NEAR(curves[0]["factor"].get<double>(), 0.3, 1e-12);
+  EXPECT_NEAR(curves[1]["factor"].get<double>(), 0.15, 1e-12);
+  EXPECT_GT(curves[0]["slope_error"].get<double>(), 0);
+}
+
+TEST(WritePage, MakesMissingDirectoriesAndLeavesNothingElse) {
+  const ScratchDirectory scratch;
+  const fs::path path = scratch / "a" / "b" / "index.html";
+  reports::write_page(sample_input(), path);
+  EXPECT_EQ(text_of(path), make_page(sample_input()));
+  int entries = 0;
+  for (const auto& entry : fs::directory_iterator(path.parent_path())) entries += entry.exists();
+  EXPECT_EQ(entries, 1);
+}
+
+/// A limit on the size of files stands in for the full disk.
+TEST(WritePage, OldPageSurvivesAFailure) {
+  const ScratchDirectory scratch;
+  const fs::path path = scratch / "index.html";
+  std::ofstream(path) << "the old page";
+
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 4096;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(reports::write_page(sample_input(), path), std::system_error);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old_handler);
+
+  EXPECT_EQ(text_of(path), "the old page");
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), fs::directory_iterator()), 1)
+      << "the half-written file is removed";
+}
+
+TEST(WritePage, PathThatIsADirectoryIsAnErrorThatNamesIt) {
+  const ScratchDirectory scratch;
+  fs::create_directory(scratch / "page");
+  try {
+    reports::write_page(sample_input(), scratch / "page");
+    FAIL() << "wrote over a directory";
+  } catch (const std::system_error& error) {
+    EXPECT_NE(std::string(error.what()).find("page"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::tests

@@ -1,0 +1,115 @@
+#include "samples.h"
+
+namespace plumbline::tests {
+
+verify::CheckResult sample_check() {
+  verify::CheckResult check;
+  check.check = "mean";
+  check.subject = "furnace_sphere/mis/power";
+  check.verdict = verify::Verdict::fail;
+  check.expected = verify::Verdict::inconclusive;
+  check.estimate = 1.0 / 3;
+  check.reference = 0.25;
+  check.tolerance = 5e-3;
+  check.bound = 1.5e-3;
+  check.detectable = 2.5e-3;
+  check.p_value = 1e-300;
+  check.interval_low = -0.125;
+  check.interval_high = 0.375;
+  check.samples = 9'007'199'254'740'993;  // 2^53 + 1, which a double cannot hold
+  check.seconds = 0.75;
+  check.leaned_on = "exact variance";
+  check.reason = "the bias is proven";
+  check.diagnosis = "observed/expected = 2: factor?";
+  check.seed = 18'446'744'073'709'551'615u;
+  check.replay = "ctest -R '^A\\.B$'";
+  check.figures = {{"bins", 4096}, {"a \"quoted\" name", 0.5}};
+  return check;
+}
+
+reports::RunEnvironment sample_environment() {
+  reports::RunEnvironment environment;
+  environment.version = "1.2.3";
+  environment.commit = "0123456789abcdef";
+  environment.dirty = true;
+  environment.compiler = "g++ 12";
+  environment.flags = "Release -O3";
+  environment.cpu = "a processor";
+  environment.cores = 2;
+  environment.system = "Linux";
+  environment.load_average = 0.5;
+  environment.time = "2024-02-29T12:00:00Z";
+  environment.libraries = {{"embree", "3.13.5"}};
+  return environment;
+}
+
+reports::RenderRecord sample_render() {
+  reports::RenderRecord render;
+  render.scene = "furnace_sphere";
+  render.strategy = "mis";
+  render.heuristic = "power";
+  render.samples_per_pixel = 64;
+  render.seconds = 1.5;
+  render.camera_rays = 1;
+  render.bounce_rays = 2;
+  render.shadow_rays = 3;
+  render.rejected = 4;
+  render.non_finite = 5;
+  render.mean = {0.5, 0.25, 0.125};
+  render.seed = 18'446'744'073'709'551'614u;
+  render.version = "1.2.3";
+  render.max_depth = 7;
+  render.width = 192;
+  render.height = 144;
+  render.threads = 8;
+  render.image = "images/a.exr";
+  render.parameters = {{"albedo", "0.5"}, {"le", "2"}};
+  return render;
+}
+
+reports::SpeedPoint sample_speed_point() {
+  reports::SpeedPoint point;
+  point.scene = "small_light";
+  point.strategy = "one-sample";
+  point.heuristic = "balance";
+  point.sampler = "independent";
+  point.samples_per_pixel = 16;
+  point.seconds = 0.25;
+  point.rays = 1'000'000;
+  point.rel_mse = 0.04;
+  point.rel_mse_low = 0.03;
+  point.rel_mse_high = 0.05;
+  point.replicates = 12;
+  return point;
+}
+
+reports::RayCost sample_ray_cost() {
+  reports::RayCost cost;
+  cost.scene = "small_light";
+  cost.rays = "as rendered";
+  cost.occluded_fraction = 0.375;
+  cost.width = 16;
+  cost.count = 100'000;
+  cost.intersect_ns = 120;
+  cost.occluded_ns = 90;
+  cost.ratio = 0.75;
+  cost.ratio_low = 0.7;
+  cost.ratio_high = 0.8;
+  return cost;
+}
+
+reports::Figure sample_figure() {
+  reports::Figure figure;
+  figure.group = "Integrals with known answers";
+  figure.title = "Error against samples";
+  figure.caption = "The dashed line is exact.";
+  figure.x = {"samples", true};
+  figure.y = {"error", false};
+  figure.series = {
+      {"mis", reports::SeriesStyle::points, {1, 2, 4}, {3, 2, 1}, {2, 1, 0}, {4, 3, 2}},
+      {"exact", reports::SeriesStyle::dashed, {1, 4}, {3, 1}, {}, {}},
+  };
+  return figure;
+}
+
+}  // namespace plumbline::tests

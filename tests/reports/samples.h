@@ -1,0 +1,16 @@
+#pragma once
+
+#include <plumbline/reports/results.h>
+
+/// One record of each format with a different value in every field, so that a field that is lost or
+/// mixed up shows.
+namespace plumbline::tests {
+
+verify::CheckResult sample_check();
+reports::RunEnvironment sample_environment();
+reports::RenderRecord sample_render();
+reports::SpeedPoint sample_speed_point();
+reports::RayCost sample_ray_cost();
+reports::Figure sample_figure();
+
+}  // namespace plumbline::tests

@@ -1,0 +1,151 @@
+#include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
+#include <stdlib.h>
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "samples.h"
+
+namespace plumbline::tests {
+namespace {
+
+/// Sets an environment variable for the length of a test.
+class ScopedVariable {
+ public:
+  ScopedVariable(const char* name, const std::string& value) : name_(name) {
+    if (const char* old = ::getenv(name)) old_ = old;
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~ScopedVariable() {
+    if (old_) {
+      ::setenv(name_, old_->c_str(), 1);
+    } else {
+      ::unsetenv(name_);
+    }
+  }
+  ScopedVariable(const ScopedVariable&) = delete;
+  ScopedVariable& operator=(const ScopedVariable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> old_;
+};
+
+verify::CheckResult result_with(verify::Verdict verdict, verify::Verdict expected) {
+  verify::CheckResult result = sample_check();
+  result.verdict = verdict;
+  result.expected = expected;
+  result.replay.clear();
+  result.seed = 0;
+  return result;
+}
+
+TEST(RunSeed, ComesFromTheEnvironment) {
+  const ScopedVariable seed("PLUMBLINE_SEED", "18446744073709551615");
+  EXPECT_EQ(run_seed(), 18'446'744'073'709'551'615u);
+}
+
+TEST(RunSeed, WhatIsNoSeedIsRefusedNotRead) {
+  for (const char* text : {"-1", "1e3", "12 ", "0x10", "18446744073709551616", "seed"}) {
+    const ScopedVariable seed("PLUMBLINE_SEED", text);
+    EXPECT_THROW(run_seed(), std::runtime_error) << text;
+  }
+}
+
+TEST(CheckSeed, DiffersBetweenSubjectsAndBetweenRuns) {
+  const ScopedVariable seed("PLUMBLINE_SEED", "1");
+  const std::uint64_t first = check_seed("furnace/mis");
+  EXPECT_EQ(check_seed("furnace/mis"), first);
+  EXPECT_NE(check_seed("furnace/bsdf"), first);
+  const ScopedVariable other("PLUMBLINE_SEED", "2");
+  EXPECT_NE(check_seed("furnace/mis"), first);
+}
+
+TEST(ExpectVerdict, LogsTheResultWithSeedAndReplay) {
+  const ScratchDirectory scratch;
+  const ScopedVariable results("PLUMBLINE_RESULTS", scratch.path().string());
+  const ScopedVariable seed("PLUMBLINE_SEED", "77");
+  expect_verdict(result_with(verify::Verdict::pass, verify::Verdict::pass));
+  const reports::Results read = reports::read_results(scratch.path());
+  ASSERT_EQ(read.checks.size(), 1u);
+  EXPECT_EQ(read.checks[0].seed, 77u);
+  EXPECT_EQ(read.checks[0].replay, replay_command());
+}
+
+TEST(ExpectVerdict, UnexpectedVerdictFailsTheTestWithSubjectAndReplay) {
+  const ScratchDirectory scratch;
+  const ScopedVariable results("PLUMBLINE_RESULTS", scratch.path().string());
+  const verify::CheckResult result =
+      result_with(verify::Verdict::inconclusive, verify::Verdict::pass);
+  EXPECT_NONFATAL_FAILURE(expect_verdict(result), "furnace_sphere/mis/power");
+  EXPECT_NONFATAL_FAILURE(expect_verdict(result), "ctest ");
+}
+
+TEST(ExpectVerdict, ControlThatFailsAsItMustDoesNotFailTheTest) {
+  const ScratchDirectory scratch;
+  const ScopedVariable results("PLUMBLINE_RESULTS", scratch.path().string());
+  expect_verdict(result_with(verify::Verdict::fail, verify::Verdict::fail));
+}
+
+TEST(ReplayCommand, NamesThisTestAsCtestKnowsIt) {
+  const ScopedVariable seed("PLUMBLINE_SEED", "5");
+  const ScopedVariable night("PLUMBLINE_NIGHTLY", "0");
+  const std::string command = replay_command();
+  EXPECT_EQ(command.rfind("PLUMBLINE_SEED=5 ctest --", 0), 0u) << command;
+  EXPECT_NE(command.find(" -R '^ReplayCommand\\.NamesThisTestAsCtestKnowsIt$'"), std::string::npos)
+      << command;
+}
+
+TEST(ReplayCommand, RepeatsTheNightAtNight) {
+  const ScopedVariable night("PLUMBLINE_NIGHTLY", "1");
+  EXPECT_EQ(replay_command().rfind("PLUMBLINE_NIGHTLY=1 PLUMBLINE_SEED=", 0), 0u);
+}
+
+class ReplayOfParameters : public testing::TestWithParam<double> {};
+
+/// ctest shows the value of a parameter that has no name of its own: ".../0.5", not ".../0".
+TEST_P(ReplayOfParameters, GoByTheirValue) {
+  EXPECT_NE(replay_command().find("Values/ReplayOfParameters\\.GoByTheirValue/0\\.5$'"),
+            std::string::npos)
+      << replay_command();
+}
+INSTANTIATE_TEST_SUITE_P(Values, ReplayOfParameters, testing::Values(0.5));
+
+class ReplayOfNames : public testing::TestWithParam<int> {};
+
+TEST_P(ReplayOfNames, GoByTheirName) {
+  EXPECT_NE(replay_command().find("Names/ReplayOfNames\\.GoByTheirName/mis_power$'"),
+            std::string::npos)
+      << replay_command();
+}
+INSTANTIATE_TEST_SUITE_P(Names, ReplayOfNames, testing::Values(3),
+                         [](const auto&) { return std::string("mis_power"); });
+
+template <class T>
+class ReplayOfTypes : public testing::Test {};
+TYPED_TEST_SUITE(ReplayOfTypes, testing::Types<int>);
+
+TYPED_TEST(ReplayOfTypes, GoByTheirType) {
+  EXPECT_NE(replay_command().find("^ReplayOfTypes\\.GoByTheirType<int>$'"), std::string::npos)
+      << replay_command();
+}
+
+TEST(ScratchDirectory, IsEmptyAndGoesAway) {
+  std::filesystem::path path;
+  {
+    const ScratchDirectory scratch;
+    path = scratch.path();
+    EXPECT_TRUE(std::filesystem::is_empty(path));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(SourceFile, IsFoundFromTheRoot) {
+  EXPECT_TRUE(std::filesystem::exists(source_file("CMakePresets.json")));
+}
+
+}  // namespace
+}  // namespace plumbline::tests
