@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <system_error>
 #include <vector>
 
@@ -59,7 +60,7 @@ std::vector<SuiteRow> suite_rows(const std::vector<verify::CheckResult>& checks)
         std::find_if(rows.begin(), rows.end(), [&](const SuiteRow& r) { return r.suite == suite; });
     if (row == rows.end()) row = rows.insert(rows.end(), SuiteRow{suite, 0, 0, 0});
     ++row->checks;
-    row->unexpected += check.as_expected() ? 0 : 1;
+    row->unexpected += check.as_expected() ? 0u : 1u;
     row->seconds += check.seconds;
   }
   return rows;
