@@ -42,10 +42,10 @@ function minus(text) {
 }
 
 /** All significant digits, so that the numbers of a column line up. */
-function formatAligned(value) {
+function formatAligned(value, digits = 5) {
   const x = toNumber(value);
   const size = Math.abs(x);
-  return size >= 1e-3 && size < 1e5 ? minus(x.toPrecision(5)) : formatNumber(x);
+  return size >= 1e-3 && size < 1e5 ? minus(x.toPrecision(digits)) : formatNumber(x, digits);
 }
 
 /** A relative size in per cent with two significant digits. */

@@ -21,8 +21,8 @@ const checkColumns = [
     sort: (c) => c.expected,
     cell: (c) => element('span', {className: c.as_expected ? 'muted' : 'bad-number'}, c.expected),
   },
-  numberColumn('Estimate', (c) => c.estimate, formatAligned),
-  numberColumn('Reference', (c) => c.reference, formatAligned),
+  numberColumn('Estimate', (c) => c.estimate, (x) => formatAligned(x)),
+  numberColumn('Reference', (c) => c.reference, (x) => formatAligned(x)),
   {
     name: 'Proven bound',
     title: '|bias| is at most this with 99.9 % confidence; relative to the reference where there is one',
@@ -142,7 +142,7 @@ class CheckTable {
   }
 
   node() {
-    const search = element('input', {
+    this.search = element('input', {
       type: 'search',
       placeholder: 'Filter by words, e.g. furnace mis',
       'aria-label': 'Filter checks',
@@ -152,7 +152,7 @@ class CheckTable {
       },
     });
     return [
-      element('div', {className: 'filters'}, search,
+      element('div', {className: 'filters'}, this.search,
         element('div', {className: 'chips', role: 'group', 'aria-label': 'Verdict'}, this.chips), this.count),
       element('div', {className: 'scroll'}, this.table),
     ];
@@ -161,6 +161,13 @@ class CheckTable {
   show(kind) {
     this.kind = kind;
     this.draw();
+  }
+
+  /** All checks of a kind, whatever words were typed before. */
+  showAll(kind) {
+    this.search.value = '';
+    this.words = [];
+    this.show(kind);
   }
 
   matches(check) {
@@ -235,7 +242,7 @@ function addVarianceRatios() {
   const columns = [
     textColumn('Suite', suiteOf),
     textColumn('Compared', nameInSuite, {className: 'mono'}),
-    numberColumn('Ratio', (c) => c.estimate, (x) => formatNumber(x, 3)),
+    numberColumn('Ratio', (c) => c.estimate, (x) => formatAligned(x, 3)),
     {
       name: '99.9 % interval',
       number: true,

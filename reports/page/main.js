@@ -71,7 +71,7 @@ function addEnvironment() {
 addEnvironment();
 const checkTable = addChecks();
 addOverview((kind) => {
-  checkTable?.show(kind);
+  checkTable?.showAll(kind);
   document.getElementById('checks')?.scrollIntoView();
 });
 addNotices();

@@ -211,14 +211,19 @@ function slopeTable(scene, samplers) {
       sort: (c) => toNumber(c.slope),
       cell: (c) => `${minus(toNumber(c.slope).toFixed(3))} ± ${toNumber(c.slope_error).toFixed(3)}`,
     },
-    numberColumn('Time to 1 % error [s]', (c) => timeTo(0.01, c), (x) => formatNumber(x, 3),
+    numberColumn('1 % error after [s]', (c) => timeTo(0.01, c), (x) => formatAligned(x, 3),
       {title: 'From the fitted line; beyond the measured points it is an extrapolation'}),
-    numberColumn('Efficiency', (c) => efficiency(c) / best, (x) => formatNumber(x, 3),
+    numberColumn('Efficiency', (c) => efficiency(c) / best, (x) => formatAligned(x, 3),
       {title: '1/(relMSE · seconds), relative to the best here'}),
-    numberColumn('Mrays/s', (c) => last(c).rays / last(c).seconds / 1e6, (x) => formatNumber(x, 3)),
-    numberColumn('Replicates', (c) => last(c).replicates, String),
+    numberColumn('Mrays/s', (c) => last(c).rays / last(c).seconds / 1e6, (x) => formatAligned(x, 3)),
   ];
   return sortableTable(columns, scene.curves);
+}
+
+function replicates(scene) {
+  const counts = scene.curves.flatMap((curve) => curve.points.map((p) => p.replicates));
+  const [low, high] = [Math.min(...counts), Math.max(...counts)];
+  return `${low === high ? low : `${low} to ${high}`} replicates of each point`;
 }
 
 function addSpeed() {
@@ -227,7 +232,8 @@ function addSpeed() {
   const x = {label: 'time of one render [s]', log: true};
   const y = {label: 'relative error (root of relMSE)', log: true};
   const cards = data.speed.map((scene) =>
-    element('div', {className: 'card'}, element('h3', {}, scene.scene),
+    element('div', {className: 'card'},
+      element('h3', {}, scene.scene, element('span', {className: 'aside'}, replicates(scene))),
       plot(() => curveDatasets(scene, samplers), x, y, `Error against time, ${scene.scene}`),
       slopeTable(scene, samplers)));
   addSection('speed', 'Error against time', data.speed.length,
@@ -247,8 +253,8 @@ function addRayCosts() {
     textColumn('Rays', (c) => c.rays),
     numberColumn('Width', (c) => c.width, String),
     numberColumn('Occluded', (c) => c.occluded_fraction, (x) => `${(100 * x).toFixed(1)} %`),
-    numberColumn('rtcIntersect [ns]', (c) => c.intersect_ns, (x) => formatNumber(x, 4)),
-    numberColumn('rtcOccluded [ns]', (c) => c.occluded_ns, (x) => formatNumber(x, 4)),
+    numberColumn('rtcIntersect [ns]', (c) => c.intersect_ns, (x) => formatAligned(x, 4)),
+    numberColumn('rtcOccluded [ns]', (c) => c.occluded_ns, (x) => formatAligned(x, 4)),
     numberColumn('Ratio', (c) => c.ratio, (x) => x.toFixed(3)),
     {name: '95 % interval', number: true, cell: (c) => formatInterval(c.ratio_low, c.ratio_high)},
     intervalColumn('', scale, (c) => ({low: c.ratio_low, value: c.ratio, high: c.ratio_high})),
