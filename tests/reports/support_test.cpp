@@ -104,16 +104,6 @@ TEST(ReplayCommand, RepeatsTheNightAtNight) {
   EXPECT_EQ(replay_command().rfind("PLUMBLINE_NIGHTLY=1 PLUMBLINE_SEED=", 0), 0u);
 }
 
-class ReplayOfParameters : public testing::TestWithParam<double> {};
-
-/// ctest shows the value of a parameter that has no name of its own: ".../0.5", not ".../0".
-TEST_P(ReplayOfParameters, GoByTheirValue) {
-  EXPECT_NE(replay_command().find("Values/ReplayOfParameters\\.GoByTheirValue/0\\.5$'"),
-            std::string::npos)
-      << replay_command();
-}
-INSTANTIATE_TEST_SUITE_P(Values, ReplayOfParameters, testing::Values(0.5));
-
 class ReplayOfNames : public testing::TestWithParam<int> {};
 
 TEST_P(ReplayOfNames, GoByTheirName) {

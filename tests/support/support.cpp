@@ -31,20 +31,11 @@ std::uint64_t hash(std::string_view text) {
   return h;
 }
 
-/// The name that gtest_discover_tests registers: a value-parameterised test whose instance has only
-/// a number, and a typed test, go by the value or type instead of the number.
+/// The name that gtest_discover_tests registers: a typed test goes by its type instead of a number.
 std::string ctest_name(const testing::TestInfo& test) {
-  std::string suite = test.test_suite_name();
-  std::string name = test.name();
-  if (test.type_param() != nullptr) {
-    return suite.substr(0, suite.find('/')) + "." + name + "<" + test.type_param() + ">";
-  }
-  const std::size_t slash = name.rfind('/');
-  if (test.value_param() != nullptr && slash != std::string::npos &&
-      name.find_first_not_of("0123456789", slash + 1) == std::string::npos) {
-    name = name.substr(0, slash + 1) + test.value_param();
-  }
-  return suite + "." + name;
+  const std::string suite = test.test_suite_name();
+  if (test.type_param() == nullptr) return suite + "." + test.name();
+  return suite.substr(0, suite.find('/')) + "." + test.name() + "<" + test.type_param() + ">";
 }
 
 std::string quoted_for_regex(std::string_view text) {
