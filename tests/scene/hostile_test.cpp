@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <string>
+
+#include "scene_text.h"
+
+/// Files that are made to bring a reader down get a message like any other mistake.
+namespace plumbline::tests {
+namespace {
+
+std::string repeated(const std::string& text, int times) {
+  std::string result;
+  result.reserve(text.size() * static_cast<std::size_t>(times));
+  for (int i = 0; i < times; ++i) result += text;
+  return result;
+}
+
+TEST(HostileFile, Of100MBIsRefusedUnread) {
+  const TemporaryDirectory directory;
+  const auto file = directory.write("scene.xml", "<scene");
+  std::filesystem::resize_file(file, 100u << 20);
+  EXPECT_EQ(refusal_of_file(file),
+            "scene.xml: has 104857600 bytes, more than the 16777216 that such a file may have");
+}
+
+TEST(HostileFile, NestedAHundredThousandDeepIsRefused) {
+  EXPECT_EQ(refusal_of_text(repeated("<scene>\n", 100000) + repeated("</scene>", 100000)),
+            "scene.xml:33: elements are nested deeper than 32");
+}
+
+TEST(HostileFile, NestedAndNeverClosedIsRefused) {
+  EXPECT_EQ(refusal_of_text(repeated("<scene>\n", 100000)),
+            "scene.xml:100000: is not well-formed XML: Start-end tags mismatch");
+}
+
+TEST(HostileFile, WithAHundredThousandAttributesIsRefused) {
+  std::string text = "<scene";
+  for (int i = 0; i < 100000; ++i) text += " a" + std::to_string(i) + "=\"\"";
+  EXPECT_EQ(refusal_of_text(text + "/>"), "scene.xml:1: an element has more than 32 attributes");
+}
+
+TEST(HostileFile, WithAHundredThousandIdsIsReadInTime) {
+  // Quadratic work here would take minutes.
+  std::string body;
+  for (int i = 0; i < 100000; ++i) {
+    body += "<bsdf type=\"diffuse\" id=\"b" + std::to_string(i) + "\"/>\n";
+  }
+  EXPECT_EQ(load_body(body + "<shape type=\"sphere\"><ref id=\"b99999\"/></shape>").bsdfs.size(),
+            100000u);
+}
+
+TEST(HostileFile, WithALongNameGetsAShortMessage) {
+  const std::string message =
+      refusal_of_text(scene_with("<shape type=\"" + repeated("sphere", 100000) + "\"/>"));
+  EXPECT_LT(message.size(), 300u);
+  EXPECT_EQ(message.substr(0, 39), "scene.xml:3: <shape> of type \"spheresph");
+}
+
+TEST(HostileFile, ThatIsADirectoryIsRefused) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directory(directory.path() / "scene.xml");
+  EXPECT_EQ(refusal_of_file(directory.path() / "scene.xml"),
+            "scene.xml: is a directory, not a file");
+}
+
+TEST(HostileFile, ThatIsMissingIsRefused) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(refusal_of_file(directory.path() / "scene.xml"), "scene.xml: there is no such file");
+}
+
+TEST(HostileFile, ThatIsAPipeIsRefusedAtOnce) {
+  const TemporaryDirectory directory;
+  const auto pipe = directory.path() / "scene.xml";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(refusal_of_file(pipe), "scene.xml: is not a regular file");
+}
+
+TEST(HostileFile, ThatMayNotBeReadIsRefused) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
+  const TemporaryDirectory directory;
+  const auto file = directory.write("scene.xml", scene_with("<shape type=\"sphere\"/>"));
+  std::filesystem::permissions(file, std::filesystem::perms::none);
+  EXPECT_EQ(refusal_of_file(file), "scene.xml: cannot be opened: Permission denied");
+}
+
+TEST(HostileFile, WithZeroBytesIsRefused) {
+  std::string text = scene_with("<shape type=\"sphere\"/>");
+  text[text.find("sphere")] = '\0';
+  EXPECT_EQ(refusal_of_text(text), "scene.xml:3: holds a zero byte, so it is not UTF-8 text");
+}
+
+TEST(HostileFile, WithControlCharactersDoesNotReachTheTerminal) {
+  EXPECT_EQ(refusal_of_text(scene_with("<shape type=\"\x1b[31mred\"/>")),
+            "scene.xml:3: <shape> of type \"?[31mred\" is not supported; supported: sphere, "
+            "rectangle, disk, obj");
+}
+
+TEST(HostileFile, UndeclaredEntityIsNotExpanded) {
+  EXPECT_EQ(refusal_of_text(scene_with("<shape type=\"&bomb;\"/>")),
+            "scene.xml:3: <shape> of type \"&bomb;\" is not supported; supported: sphere, "
+            "rectangle, disk, obj");
+}
+
+TEST(HostileFile, CutAnywhereNeverCrashes) {
+  const std::string text = scene_with(
+      "<default name=\"r\" value=\"1\"/><shape type=\"sphere\"><float name=\"radius\" "
+      "value=\"$r\"/><emitter type=\"area\"><rgb name=\"radiance\" value=\"1, 2, "
+      "3\"/></emitter></shape>");
+  const TemporaryDirectory directory;
+  // The last character is a line break, without which the file is still whole.
+  for (std::size_t length = 0; length + 1 < text.size(); ++length) {
+    const auto file = directory.write("scene.xml", text.substr(0, length));
+    EXPECT_FALSE(refusal_of_file(file).empty()) << length;
+  }
+  EXPECT_TRUE(refusal_of_file(directory.write("scene.xml", text)).empty());
+}
+
+TEST(HostileFile, WithOneByteChangedNeverCrashes) {
+  const std::string text = scene_with(
+      "<shape type=\"sphere\"><float name=\"radius\" value=\"1\"/><transform "
+      "name=\"to_world\"><rotate x=\"1\" angle=\"30\"/></transform></shape>");
+  const TemporaryDirectory directory;
+  int refused = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    for (const char replacement : {'<', '"', '&', '9', '-', '\xff', '\x01'}) {
+      std::string changed = text;
+      changed[at] = replacement;
+      refused += refusal_of_file(directory.write("scene.xml", changed)).empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GT(refused, static_cast<int>(text.size()));
+}
+
+}  // namespace
+}  // namespace plumbline::tests
