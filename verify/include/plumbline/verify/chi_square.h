@@ -23,7 +23,7 @@ struct ChiSquareOptions {
 
   /// A pass proves that the relative deviation of the samples' density from the pdf, root mean
   /// square over the bins of the coarsest level (64), is at most this.
-  double tolerance = 0.02;
+  double tolerance = 0.0125;
 
   /// |Σ expected mass + rejected share − 1| beyond this, and beyond the error of both, fails.
   double mass_tolerance = 5e-5;

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cubature.h"
+
+namespace plumbline::verify {
+
+/// Bins of the unit square that follow a density: halved again and again at the median of pilot
+/// points, alternating between the two dimensions. All nodes of one depth are bins of about equal
+/// mass.
+class BinTree {
+ public:
+  /// @param points  pilot samples; reordered so that each cell's are in a row
+  /// @param depth   2^depth finest bins
+  BinTree(std::vector<Point2>& points, int depth);
+
+  int depth() const { return depth_; }
+  std::size_t bins() const { return std::size_t{1} << depth_; }
+
+  /// Finest bin of a point. The bin at a coarser depth d is its index >> (depth − d).
+  std::size_t locate(const Point2& p) const {
+    std::size_t node = 1;
+    for (int d = 0; d < depth_; ++d) {
+      node = 2 * node + (p[static_cast<std::size_t>(d & 1)] < splits_[node] ? 0 : 1);
+    }
+    return node - bins();
+  }
+
+  const Box& box(std::size_t bin) const { return boxes_[bin]; }
+
+  /// Cells to start cubature with: each bin cut around its pilot points and then in growing steps
+  /// to its edge, so that a support that ends somewhere inside is not missed.
+  const std::vector<Cell>& cells() const { return cells_; }
+
+ private:
+  void build(std::vector<Point2>& points, std::size_t first, std::size_t last, std::size_t node,
+             int level, const Box& box);
+  void add_clusters(std::vector<Point2>& points, std::size_t first, std::size_t last,
+                    std::size_t bin, const Box& box);
+  void add_cells(const std::vector<Point2>& points, std::size_t first, std::size_t last,
+                 std::size_t bin, const Box& box);
+
+  int depth_;
+  std::vector<double> splits_;  // heap order, root at 1
+  std::vector<Box> boxes_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace plumbline::verify

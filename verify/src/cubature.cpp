@@ -1,0 +1,196 @@
+#include "cubature.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace plumbline::verify {
+
+namespace {
+
+using Integrand = std::function<double(const Point2&)>;
+
+struct Estimate {
+  Cell cell;
+  double value = 0, error = 0;
+  int split = 0;         // dimension to halve
+  bool aligned = false;  // an edge of the support runs through, along one of the axes
+  int depth = 0;
+
+  /// Errors along an aligned edge have one sign, so they add up where others cancel.
+  double urgency() const { return aligned ? 8 * error : error; }
+  bool operator<(const Estimate& other) const { return urgency() < other.urgency(); }
+};
+
+/// Where the nodes of a cell show the density to be 0, and where not.
+class SupportEdge {
+ public:
+  void see(double s, double t, double value) {
+    Range& range = value == 0 ? zero_ : positive_;
+    range.low = {std::min(range.low[0], s), std::min(range.low[1], t)};
+    range.high = {std::max(range.high[0], s), std::max(range.high[1], t)};
+    largest_ = std::max(largest_, std::abs(value));
+  }
+
+  bool crosses() const { return zero_.low[0] <= zero_.high[0] && largest_ > 0; }
+  double largest() const { return largest_; }
+
+  /// Whether a line across dimension d parts zeros from the rest.
+  bool parts(std::size_t d) const {
+    return zero_.high[d] < positive_.low[d] || positive_.high[d] < zero_.low[d];
+  }
+
+ private:
+  struct Range {
+    Point2 low{2, 2}, high{-2, -2};
+  };
+  Range zero_, positive_;
+  double largest_ = 0;
+};
+
+/// Genz–Malik 1980, Table 1 with n = 2: λ₂ = √(9/70), λ₃ = λ₄ = √(9/10), λ₅ = √(9/19).
+Estimate apply_rule(const Integrand& f, const Cell& cell) {
+  static const double kL2 = std::sqrt(9.0 / 70), kL4 = std::sqrt(9.0 / 10),
+                      kL5 = std::sqrt(9.0 / 19);
+  constexpr double kW1 = -3816.0 / 19683, kW2 = 980.0 / 6561, kW3 = 1020.0 / 19683,
+                   kW4 = 200.0 / 19683, kW5 = 6859.0 / 19683 / 4;
+  constexpr double kE1 = -971.0 / 729, kE2 = 245.0 / 486, kE3 = 65.0 / 1458, kE4 = 25.0 / 729;
+
+  const Box& box = cell.box;
+  const Point2 center{(box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2};
+  const Point2 half{(box.high[0] - box.low[0]) / 2, (box.high[1] - box.low[1]) / 2};
+  SupportEdge edge;
+  const auto at = [&](double s, double t) {
+    const double value = f({center[0] + s * half[0], center[1] + t * half[1]});
+    edge.see(s, t, value);
+    return value;
+  };
+  const double f0 = at(0, 0);
+  double sum2 = 0, sum3 = 0;
+  Point2 fourth;
+  for (std::size_t d = 0; d < 2; ++d) {
+    const double s = d == 0 ? 1 : 0, t = d == 0 ? 0 : 1;
+    const double inner = at(kL2 * s, kL2 * t) + at(-kL2 * s, -kL2 * t);
+    const double outer = at(kL4 * s, kL4 * t) + at(-kL4 * s, -kL4 * t);
+    sum2 += inner;
+    sum3 += outer;
+    // Ratio λ₂²/λ₄² = 1/7 cancels the second difference.
+    fourth[d] = std::abs(inner - 2 * f0 - (outer - 2 * f0) / 7);
+  }
+  const double sum4 = at(kL4, kL4) + at(kL4, -kL4) + at(-kL4, kL4) + at(-kL4, -kL4);
+  const double sum5 = at(kL5, kL5) + at(kL5, -kL5) + at(-kL5, kL5) + at(-kL5, -kL5);
+
+  const double area = 4 * half[0] * half[1];
+  const double degree7 = area * (kW1 * f0 + kW2 * sum2 + kW3 * sum3 + kW4 * sum4 + kW5 * sum5);
+  const double degree5 = area * (kE1 * f0 + kE2 * sum2 + kE3 * sum3 + kE4 * sum4);
+  Estimate e{cell, degree7, std::abs(degree7 - degree5), fourth[0] >= fourth[1] ? 0 : 1};
+  if (edge.crosses()) {
+    // Across an edge the two rules may agree by chance.
+    e.error = std::max(e.error, 0.1 * area * edge.largest());
+    e.aligned = edge.parts(0) != edge.parts(1);
+    if (e.aligned) e.split = edge.parts(0) ? 0 : 1;
+  }
+  return e;
+}
+
+constexpr int kForcedDepth = 2;
+
+class Integrator {
+ public:
+  Integrator(const Integrand& f, std::vector<Point2>& points, std::size_t bins)
+      : f_(f), points_(points) {
+    result_.value.assign(bins, 0.0);
+    result_.error.assign(bins, 0.0);
+  }
+
+  void add(const Cell& cell, int depth) {
+    Estimate e = apply_rule(f_, cell);
+    e.depth = depth;
+    if (e.value == 0) e.split = depth % 2;
+    heed_points(e);
+    if (e.value == 0) e.error = std::max(e.error, e.cell.doubt);
+    result_.evaluations += 17;
+    count_error(e, 1);
+    queue_.push(e);
+  }
+
+  void refine(double target, std::uint64_t max_evaluations) {
+    while (!(error() <= target) && result_.evaluations < max_evaluations && !queue_.empty()) {
+      const Estimate worst = queue_.top();
+      if (!std::isfinite(worst.error)) break;
+      queue_.pop();
+      count_error(worst, -1);
+      Cell low = worst.cell, high = worst.cell;
+      const std::size_t d = static_cast<std::size_t>(worst.split);
+      const double middle = (low.box.low[d] + low.box.high[d]) / 2;
+      low.box.high[d] = high.box.low[d] = middle;
+      const auto at = [&](std::size_t i) {
+        return points_.begin() + static_cast<std::ptrdiff_t>(i);
+      };
+      const auto cut = std::partition(at(low.first), at(low.last),
+                                      [&](const Point2& p) { return p[d] < middle; });
+      low.last = high.first = static_cast<std::size_t>(cut - points_.begin());
+      low.doubt = high.doubt = worst.cell.doubt / (worst.depth < kForcedDepth ? 2 : 8);
+      add(low, worst.depth + 1);
+      add(high, worst.depth + 1);
+    }
+  }
+
+  CubatureResult finish() {
+    aligned_ = sum_ = sum_squares_ = 0;  // again, without the rounding of all the updates
+    for (; !queue_.empty(); queue_.pop()) {
+      const Estimate& e = queue_.top();
+      result_.finite = result_.finite && std::isfinite(e.value);
+      result_.value[e.cell.bin] += e.value;
+      result_.error[e.cell.bin] += e.error;
+      result_.total += e.value;
+      count_error(e, 1);
+    }
+    result_.total_error = error();
+    return result_;
+  }
+
+ private:
+  void count_error(const Estimate& e, int sign) {
+    if (e.aligned) {
+      aligned_ += sign * e.error;
+    } else {
+      sum_ += sign * e.error;
+      sum_squares_ += sign * e.error * e.error;
+    }
+  }
+
+  double error() const {
+    return aligned_ + 4 * std::sqrt(std::max(0.0, sum_squares_)) + 0.1 * sum_;
+  }
+
+  /// Raises the error of a cell that shows improbably little for its points: with λ expected, c
+  /// points come with probability below 0.05 if λ < (c − 0.8)/4.
+  void heed_points(Estimate& e) const {
+    constexpr int kMaxDepth = 16;
+    if (e.depth >= kMaxDepth || e.cell.first == e.cell.last) return;
+    const double total = static_cast<double>(points_.size());
+    const double count = static_cast<double>(e.cell.last - e.cell.first);
+    if (!(e.value * total < (count - 0.8) / 4)) return;
+    e.error = std::max(e.error, count / total - e.value);
+  }
+
+  const Integrand& f_;
+  std::vector<Point2>& points_;
+  std::priority_queue<Estimate> queue_;
+  double aligned_ = 0, sum_ = 0, sum_squares_ = 0;
+  CubatureResult result_;
+};
+
+}  // namespace
+
+CubatureResult integrate(const Integrand& f, const std::vector<Cell>& cells,
+                         std::vector<Point2>& points, std::size_t bins, double target,
+                         std::uint64_t max_evaluations) {
+  Integrator integrator(f, points, bins);
+  for (const Cell& cell : cells) integrator.add(cell, 0);
+  integrator.refine(target, max_evaluations);
+  return integrator.finish();
+}
+
+}  // namespace plumbline::verify

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "chart.h"
+
+namespace plumbline::verify {
+
+struct Box {
+  Point2 low{0, 0}, high{1, 1};
+};
+
+/// A box to integrate over, and which result it adds to.
+struct Cell {
+  Box box;
+  std::size_t bin = 0;
+
+  /// Pilot points inside: [first, last) of the integrator's list. A cell whose rule shows much less
+  /// than its points promise is split however well the rule agrees with itself: all nodes can miss
+  /// a thin support.
+  std::size_t first = 0, last = 0;
+
+  /// What may hide here although all nodes show 0: the edge of the support runs nearby, and the
+  /// nodes leave out a fortieth of the cell at each side. Counts as error where the rule gives 0.
+  double doubt = 0;
+};
+
+struct CubatureResult {
+  std::vector<double> value;  ///< per bin
+  std::vector<double> error;  ///< per bin, sum of the cells' estimates: far above the true error
+  double total = 0;
+
+  /// Of `total`: 4 √Σe² + 0.1 Σe over the cells. Where the integrand is smooth the true error is
+  /// far below a tenth of the rule's estimate e; at edges of the support it is about e with random
+  /// sign.
+  double total_error = 0;
+  std::uint64_t evaluations = 0;
+  bool finite = true;  ///< every value of the integrand was
+};
+
+/// Integrates f over cells, refining where the error is largest until `total_error` ≤ target or the
+/// evaluations are spent.
+///
+/// @source Genz, Malik 1980 (J. Comput. Appl. Math. 6:4): degree 7 with embedded degree 5, 17
+/// points in
+///         two dimensions, split along the larger fourth difference
+/// @param points  pilot points, distributed about like f; reordered
+CubatureResult integrate(const std::function<double(const Point2&)>& f,
+                         const std::vector<Cell>& cells, std::vector<Point2>& points,
+                         std::size_t bins, double target, std::uint64_t max_evaluations);
+
+}  // namespace plumbline::verify
