@@ -31,7 +31,7 @@ Gap largest_gap(std::vector<Point2>::iterator begin, std::vector<Point2>::iterat
     std::sort(begin, end, [d](const Point2& a, const Point2& b) { return a[d] < b[d]; });
     const double range = (*(end - 1))[d] - (*begin)[d];
     if (!(range > 0)) continue;
-    for (auto p = begin + 1; p + 2 != end; ++p) {
+    for (auto p = begin; p + 1 != end; ++p) {
       const double share = ((*(p + 1))[d] - (*p)[d]) / range;
       if (share > largest.share) largest = {share, ((*(p + 1))[d] + (*p)[d]) / 2, d};
     }
@@ -41,38 +41,91 @@ Gap largest_gap(std::vector<Point2>::iterator begin, std::vector<Point2>::iterat
 
 std::size_t distance(std::size_t a, std::size_t b) { return a > b ? a - b : b - a; }
 
-/// Pieces of [low, high]: the range of the points with a quarter of it on each side, then outwards
-/// in steps that grow fourfold. A support that ends within a piece shows at the nodes of the rule,
-/// unless it ends within the first fortieth of it.
+/// Cuts a stretch without points in steps that grow fourfold from both ends to the middle: the
+/// support may end close to either.
+void cut_gap(double low, double high, double step, std::vector<double>& at) {
+  const double middle = (low + high) / 2;
+  std::vector<double> downwards;
+  for (double s = step; low + s < middle; s *= 4) at.push_back(low + s);
+  for (double s = step; high - s > middle; s *= 4) downwards.push_back(high - s);
+  at.insert(at.end(), downwards.rbegin(), downwards.rend());
+}
+
+/// Pieces of [low, high]: the range of the points with a quarter of it on each side, and the
+/// stretches to both ends. A support that ends within a piece shows at the nodes of the rule,
+/// unless it ends in the outermost fortieth of it.
 Cuts cut_around(double low, double high, double first_point, double last_point) {
   Cuts cuts;
-  cuts.at = {low, high};
-  if (!(last_point >= first_point)) return cuts;
-  const double range = last_point > first_point ? last_point - first_point : (high - low) / 64;
-  if (!(range > 0)) return cuts;
-  std::vector<double> below, above;
-  const double step = range / 4;
-  double start = first_point - step, end = last_point + step;
-  for (double s = step; start > low; s *= 4) {
-    below.push_back(start);
-    start -= 4 * s;
-  }
-  for (double s = step; end < high; s *= 4) {
-    above.push_back(end);
-    end += 4 * s;
-  }
   cuts.at = {low};
-  cuts.at.insert(cuts.at.end(), below.rbegin(), below.rend());
-  cuts.core = cuts.at.size() - 1;
-  cuts.at.insert(cuts.at.end(), above.begin(), above.end());
+  if (last_point >= first_point) {
+    const double range = last_point > first_point ? last_point - first_point : (high - low) / 64;
+    const double step = range / 4;
+    if (first_point - step > low) {
+      cut_gap(low, first_point - step, step, cuts.at);
+      cuts.at.push_back(first_point - step);
+    }
+    cuts.core = cuts.at.size() - 1;
+    if (last_point + step < high) {
+      cuts.at.push_back(last_point + step);
+      cut_gap(last_point + step, high, step, cuts.at);
+    }
+  }
   cuts.at.push_back(high);
   return cuts;
+}
+
+void add_cells(const std::vector<Point2>& points, const Cell& whole, std::vector<Cell>& cells) {
+  std::array<Cuts, 2> cuts;
+  for (std::size_t d = 0; d < 2; ++d) {
+    double low = whole.box.high[d], high = whole.box.low[d];
+    for (std::size_t i = whole.first; i < whole.last; ++i) {
+      low = std::min(low, points[i][d]);
+      high = std::max(high, points[i][d]);
+    }
+    cuts[d] = cut_around(whole.box.low[d], whole.box.high[d], low, high);
+  }
+  const double mass =
+      static_cast<double>(whole.last - whole.first) / static_cast<double>(points.size());
+  for (std::size_t i = 0; i + 1 < cuts[0].at.size(); ++i) {
+    for (std::size_t j = 0; j + 1 < cuts[1].at.size(); ++j) {
+      Cell cell{{{cuts[0].at[i], cuts[1].at[j]}, {cuts[0].at[i + 1], cuts[1].at[j + 1]}},
+                whole.bin};
+      if (!(cell.box.low[0] < cell.box.high[0] && cell.box.low[1] < cell.box.high[1])) continue;
+      const std::size_t steps = distance(i, cuts[0].core) + distance(j, cuts[1].core);
+      if (steps == 0) {
+        cell.first = whole.first;
+        cell.last = whole.last;
+      }
+      cell.doubt = mass * std::exp2(-2.0 * static_cast<double>(steps));
+      cells.push_back(cell);
+    }
+  }
+}
+
+void add_clusters(std::vector<Point2>& points, const Cell& whole, std::vector<Cell>& cells) {
+  const auto begin = points.begin() + static_cast<std::ptrdiff_t>(whole.first);
+  const auto end = points.begin() + static_cast<std::ptrdiff_t>(whole.last);
+  const Gap gap = largest_gap(begin, end);
+  if (gap.share < kClusterGap) {
+    add_cells(points, whole, cells);
+    return;
+  }
+  const auto cut =
+      std::partition(begin, end, [&](const Point2& p) { return p[gap.dimension] < gap.middle; });
+  Cell low = whole, high = whole;
+  low.last = high.first = static_cast<std::size_t>(cut - points.begin());
+  low.box.high[gap.dimension] = high.box.low[gap.dimension] = gap.middle;
+  add_clusters(points, low, cells);
+  add_clusters(points, high, cells);
 }
 
 }  // namespace
 
 BinTree::BinTree(std::vector<Point2>& points, int depth)
-    : depth_(depth), splits_(std::size_t{1} << depth), boxes_(std::size_t{1} << depth) {
+    : depth_(depth),
+      splits_(std::size_t{1} << depth),
+      boxes_(std::size_t{1} << depth),
+      first_((std::size_t{1} << depth) + 1, points.size()) {
   build(points, 0, points.size(), 1, 0, Box{});
 }
 
@@ -80,7 +133,7 @@ void BinTree::build(std::vector<Point2>& points, std::size_t first, std::size_t 
                     std::size_t node, int level, const Box& box) {
   if (level == depth_) {
     boxes_[node - bins()] = box;
-    add_clusters(points, first, last, node - bins(), box);
+    first_[node - bins()] = first;
     return;
   }
   const std::size_t d = static_cast<std::size_t>(level & 1);
@@ -99,50 +152,13 @@ void BinTree::build(std::vector<Point2>& points, std::size_t first, std::size_t 
   build(points, middle, last, 2 * node + 1, level + 1, high);
 }
 
-void BinTree::add_clusters(std::vector<Point2>& points, std::size_t first, std::size_t last,
-                           std::size_t bin, const Box& box) {
-  const auto begin = points.begin() + static_cast<std::ptrdiff_t>(first);
-  const auto end = points.begin() + static_cast<std::ptrdiff_t>(last);
-  const Gap gap = largest_gap(begin, end);
-  if (gap.share < kClusterGap) {
-    add_cells(points, first, last, bin, box);
-    return;
-  }
-  const auto cut =
-      std::partition(begin, end, [&](const Point2& p) { return p[gap.dimension] < gap.middle; });
-  const std::size_t middle = static_cast<std::size_t>(cut - points.begin());
-  Box low = box, high = box;
-  low.high[gap.dimension] = high.low[gap.dimension] = gap.middle;
-  add_clusters(points, first, middle, bin, low);
-  add_clusters(points, middle, last, bin, high);
+Cell BinTree::cell(std::size_t bin) const {
+  return {boxes_[bin], bin, first_[bin], first_[bin + 1], 0};
 }
 
-void BinTree::add_cells(const std::vector<Point2>& points, std::size_t first, std::size_t last,
-                        std::size_t bin, const Box& box) {
-  std::array<Cuts, 2> cuts;
-  for (std::size_t d = 0; d < 2; ++d) {
-    double low = box.high[d], high = box.low[d];
-    for (std::size_t i = first; i < last; ++i) {
-      low = std::min(low, points[i][d]);
-      high = std::max(high, points[i][d]);
-    }
-    cuts[d] = cut_around(box.low[d], box.high[d], low, high);
-  }
-  const double mass = static_cast<double>(last - first) / static_cast<double>(points.size());
-  for (std::size_t i = 0; i + 1 < cuts[0].at.size(); ++i) {
-    for (std::size_t j = 0; j + 1 < cuts[1].at.size(); ++j) {
-      Cell cell{{{cuts[0].at[i], cuts[1].at[j]}, {cuts[0].at[i + 1], cuts[1].at[j + 1]}}, bin};
-      if (!(cell.box.low[0] < cell.box.high[0] && cell.box.low[1] < cell.box.high[1])) continue;
-      if (i == cuts[0].core && j == cuts[1].core) {
-        cell.first = first;
-        cell.last = last;
-      }
-      // Of 16 points in a bin, a sixteenth of its mass may lie beyond the outermost.
-      const std::size_t steps = distance(i, cuts[0].core) + distance(j, cuts[1].core);
-      cell.doubt = mass * std::exp2(-2.0 * static_cast<double>(steps));
-      cells_.push_back(cell);
-    }
-  }
+void BinTree::add_cells_around_points(std::size_t bin, std::vector<Point2>& points,
+                                      std::vector<Cell>& cells) const {
+  add_clusters(points, cell(bin), cells);
 }
 
 }  // namespace plumbline::verify

@@ -30,22 +30,21 @@ class BinTree {
 
   const Box& box(std::size_t bin) const { return boxes_[bin]; }
 
-  /// Cells to start cubature with: each bin cut around its pilot points and then in growing steps
-  /// to its edge, so that a support that ends somewhere inside is not missed.
-  const std::vector<Cell>& cells() const { return cells_; }
+  /// A bin as one cell, with its pilot points.
+  Cell cell(std::size_t bin) const;
+
+  /// A bin cut around clusters of its pilot points and then in growing steps to its edges, so that
+  /// a support that ends somewhere inside is not missed. Appended to `cells`.
+  void add_cells_around_points(std::size_t bin, std::vector<Point2>& points,
+                               std::vector<Cell>& cells) const;
 
  private:
   void build(std::vector<Point2>& points, std::size_t first, std::size_t last, std::size_t node,
              int level, const Box& box);
-  void add_clusters(std::vector<Point2>& points, std::size_t first, std::size_t last,
-                    std::size_t bin, const Box& box);
-  void add_cells(const std::vector<Point2>& points, std::size_t first, std::size_t last,
-                 std::size_t bin, const Box& box);
-
   int depth_;
   std::vector<double> splits_;  // heap order, root at 1
   std::vector<Box> boxes_;
-  std::vector<Cell> cells_;
+  std::vector<std::size_t> first_;  // of a bin's points; one more than bins
 };
 
 }  // namespace plumbline::verify

@@ -38,7 +38,15 @@ BinnedPair::BinnedPair(const ChartedPair& pair, int depth, double mass_error, st
   const auto density = [&](const Point2& p) {
     return measure * pair.density(pair.chart->from_square(p));
   };
-  expected_ = integrate(density, tree_.cells(), pilot_, tree_.bins(), mass_error, kMaxEvaluations);
+  std::vector<Cell> cells;
+  for (std::size_t bin = 0; bin < tree_.bins(); ++bin) {
+    if (shows_zero(density, tree_.box(bin))) {
+      tree_.add_cells_around_points(bin, pilot_, cells);
+    } else {
+      cells.push_back(tree_.cell(bin));
+    }
+  }
+  expected_ = integrate(density, cells, pilot_, tree_.bins(), mass_error, kMaxEvaluations);
   counts_.bins.assign(tree_.bins(), 0);
 }
 

@@ -16,6 +16,7 @@ struct Estimate {
   int split = 0;         // dimension to halve
   bool aligned = false;  // an edge of the support runs through, along one of the axes
   int depth = 0;
+  bool sees_zero = false;
 
   /// Errors along an aligned edge have one sign, so they add up where others cancel.
   double urgency() const { return aligned ? 8 * error : error; }
@@ -32,7 +33,8 @@ class SupportEdge {
     largest_ = std::max(largest_, std::abs(value));
   }
 
-  bool crosses() const { return zero_.low[0] <= zero_.high[0] && largest_ > 0; }
+  bool sees_zero() const { return zero_.low[0] <= zero_.high[0]; }
+  bool crosses() const { return sees_zero() && largest_ > 0; }
   double largest() const { return largest_; }
 
   /// Whether a line across dimension d parts zeros from the rest.
@@ -84,6 +86,7 @@ Estimate apply_rule(const Integrand& f, const Cell& cell) {
   const double degree7 = area * (kW1 * f0 + kW2 * sum2 + kW3 * sum3 + kW4 * sum4 + kW5 * sum5);
   const double degree5 = area * (kE1 * f0 + kE2 * sum2 + kE3 * sum3 + kE4 * sum4);
   Estimate e{cell, degree7, std::abs(degree7 - degree5), fourth[0] >= fourth[1] ? 0 : 1};
+  e.sees_zero = edge.sees_zero();
   if (edge.crosses()) {
     // Across an edge the two rules may agree by chance.
     e.error = std::max(e.error, 0.1 * area * edge.largest());
@@ -92,8 +95,6 @@ Estimate apply_rule(const Integrand& f, const Cell& cell) {
   }
   return e;
 }
-
-constexpr int kForcedDepth = 2;
 
 class Integrator {
  public:
@@ -130,7 +131,7 @@ class Integrator {
       const auto cut = std::partition(at(low.first), at(low.last),
                                       [&](const Point2& p) { return p[d] < middle; });
       low.last = high.first = static_cast<std::size_t>(cut - points_.begin());
-      low.doubt = high.doubt = worst.cell.doubt / (worst.depth < kForcedDepth ? 2 : 8);
+      low.doubt = high.doubt = worst.cell.doubt / 8;
       add(low, worst.depth + 1);
       add(high, worst.depth + 1);
     }
@@ -183,6 +184,10 @@ class Integrator {
 };
 
 }  // namespace
+
+bool shows_zero(const Integrand& f, const Box& box) {
+  return apply_rule(f, Cell{box, 0, 0, 0, 0}).sees_zero;
+}
 
 CubatureResult integrate(const Integrand& f, const std::vector<Cell>& cells,
                          std::vector<Point2>& points, std::size_t bins, double target,

@@ -41,6 +41,9 @@ struct CubatureResult {
   bool finite = true;  ///< every value of the integrand was
 };
 
+/// Whether f is 0 at a node of the rule on this box: the edge of the support may run through.
+bool shows_zero(const std::function<double(const Point2&)>& f, const Box& box);
+
 /// Integrates f over cells, refining where the error is largest until `total_error` ≤ target or the
 /// evaluations are spent.
 ///
