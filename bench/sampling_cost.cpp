@@ -8,20 +8,20 @@
 namespace plumbline::renderer {
 namespace {
 
-const Bsdf kLambertian = Lambertian{{0.5f, 0.5f, 0.5f}};
+const BsdfSet kBsdfs({Lambertian{{0.5f, 0.5f, 0.5f}}});
 const Vec3f kWo = normalize(Vec3f{0.3f, 0.2f, 0.8f});
 
-void bsdf_sample(benchmark::State& state, const Bsdf& bsdf) {
+void bsdf_sample(benchmark::State& state, std::uint32_t bsdf) {
   Pcg32 random(1, 0, 0);
-  for (auto _ : state) benchmark::DoNotOptimize(sample(bsdf, kWo, random.next_2d()));
+  for (auto _ : state) benchmark::DoNotOptimize(kBsdfs.sample(bsdf, kWo, random.next_2d()));
 }
 
-void bsdf_eval_and_pdf(benchmark::State& state, const Bsdf& bsdf) {
+void bsdf_eval_and_pdf(benchmark::State& state, std::uint32_t bsdf) {
   Pcg32 random(1, 0, 0);
   for (auto _ : state) {
     const Vec3f wi = square_to_uniform_hemisphere(random.next_2d());
-    benchmark::DoNotOptimize(eval(bsdf, kWo, wi));
-    benchmark::DoNotOptimize(pdf(bsdf, kWo, wi));
+    benchmark::DoNotOptimize(kBsdfs.eval(bsdf, kWo, wi));
+    benchmark::DoNotOptimize(kBsdfs.pdf(bsdf, kWo, wi));
   }
 }
 
@@ -51,8 +51,8 @@ void random_numbers(benchmark::State& state) {
 }
 
 BENCHMARK(random_numbers);
-BENCHMARK_CAPTURE(bsdf_sample, lambertian, kLambertian);
-BENCHMARK_CAPTURE(bsdf_eval_and_pdf, lambertian, kLambertian);
+BENCHMARK_CAPTURE(bsdf_sample, lambertian, 0);
+BENCHMARK_CAPTURE(bsdf_eval_and_pdf, lambertian, 0);
 BENCHMARK_CAPTURE(light_sample, sphere, kSphere);
 BENCHMARK_CAPTURE(light_pdf, sphere, kSphere);
 BENCHMARK_CAPTURE(light_sample, rectangle, kRectangle);

@@ -35,7 +35,7 @@ Techniques choose_techniques(Strategy strategy, Pcg32& random) {
 /// A surface point that light is gathered at.
 struct Vertex {
   const SurfaceHit& hit;
-  const Bsdf& bsdf;
+  BsdfRef bsdf;
   Frame<float> frame;
   Vec3f wo;   // local
   Vec3f ref;  // where rays towards lights start, and what light densities refer to
@@ -44,7 +44,8 @@ struct Vertex {
 /// What the weight of emission at the end of a BSDF ray depends on: the vertex behind it.
 struct Arrival {
   Techniques techniques;
-  float pdf_w;  // of the BSDF sample
+  bool by_atom;  // no other technique can find what lies at the end
+  float pdf_w;   // of the BSDF sample, if it was no atom
   Vec3f ref;
 };
 
@@ -56,6 +57,7 @@ class Path {
   Rgbf trace(Ray ray) {
     Rgbf result;
     Rgbf throughput{1, 1, 1};
+    float radiance_scale = 1;        // what refractions alone made of the throughput
     std::optional<Arrival> arrival;  // none for the camera ray: its emission counts fully
     for (int depth = 1; within(depth); ++depth) {
       ++(arrival ? counters_.bounce_rays : counters_.camera_rays);
@@ -64,20 +66,26 @@ class Path {
       if (!hit || !within(depth + 1)) break;
 
       const Vertex vertex = vertex_at(*hit, -ray.direction);
+      const BsdfParts& parts = vertex.bsdf.parts();
       const Techniques techniques = choose_techniques(options_.strategy, random_);
-      if (techniques.draw_light) result += throughput * light_estimate(vertex, techniques);
-      if (techniques.draw_uniform) result += throughput * uniform_estimate(vertex);
-      if (!techniques.draw_bsdf && !within(depth + 2)) break;  // nothing left to find
+      if (techniques.draw_light && parts.density)
+        result += throughput * light_estimate(vertex, techniques);
+      if (techniques.draw_uniform && parts.density) {
+        result += throughput * uniform_estimate(vertex);
+      }
+      // Nothing left that the continued path could find.
+      if (!techniques.draw_bsdf && !parts.atoms && !within(depth + 2)) break;
 
-      const auto next = sample(vertex.bsdf, vertex.wo, random_.next_2d());
+      const auto next = vertex.bsdf.sample(vertex.wo, random_.next_2d());
       if (!next) {
         ++counters_.rejected;
         break;
       }
       throughput = throughput * next->weight;
-      if (is_black(throughput) || !survives_roulette(depth, throughput)) break;
+      radiance_scale *= next->radiance_scale;
+      if (is_black(throughput) || !survives_roulette(depth, radiance_scale, throughput)) break;
       const Vec3f direction = vertex.frame.to_world(next->wi);
-      arrival = Arrival{techniques, next->pdf_w, vertex.ref};
+      arrival = Arrival{techniques, next->is_atom(), next->pdf_w, vertex.ref};
       ray = {hit->origin_towards(direction), direction};
     }
     return result;
@@ -107,6 +115,7 @@ class Path {
   }
 
   float bsdf_weight(const Arrival& arrival, std::uint32_t light, const Vec3f& direction) const {
+    if (arrival.by_atom) return 1;
     const Techniques& t = arrival.techniques;
     if (!t.draw_bsdf) return 0;
     const float pdf_light =
@@ -123,9 +132,9 @@ class Path {
       return {};
     }
     const Vec3f wi = vertex.frame.to_local(light->wi);
-    const Rgbf f = eval(vertex.bsdf, vertex.wo, wi);
+    const Rgbf f = vertex.bsdf.eval(vertex.wo, wi);
     if (is_black(f) || !is_visible(vertex, *light)) return {};
-    const float pdf_bsdf = t.n_bsdf > 0 ? pdf(vertex.bsdf, vertex.wo, wi) : 0.0f;
+    const float pdf_bsdf = t.n_bsdf > 0 ? vertex.bsdf.pdf(vertex.wo, wi) : 0.0f;
     const float weight =
         mis_weight(options_.heuristic, t.n_light * light->pdf_w, t.n_bsdf * pdf_bsdf) / t.n_light;
     return f * light->radiance * (std::abs(wi.z) * weight / light->pdf_w);
@@ -137,12 +146,16 @@ class Path {
     return !(ray.t_max > 0) || !scene_.occluded(ray);
   }
 
-  /// Direct light by one direction uniform on the hemisphere that wo is in.
+  /// Direct light by one direction uniform on the hemisphere that wo is in, or on the sphere where
+  /// light passes through the surface.
   Rgbf uniform_estimate(const Vertex& vertex) {
-    Vec3f wi = square_to_uniform_hemisphere(random_.next_2d());
-    const float pdf_w = square_to_uniform_hemisphere_pdf_w(wi);
+    const bool sphere = vertex.bsdf.parts().transmission;
+    const Vec2f u = random_.next_2d();
+    Vec3f wi = sphere ? square_to_uniform_sphere(u) : square_to_uniform_hemisphere(u);
+    const float pdf_w =
+        sphere ? square_to_uniform_sphere_pdf_w(wi) : square_to_uniform_hemisphere_pdf_w(wi);
     if (vertex.wo.z < 0) wi.z = -wi.z;
-    const Rgbf f = eval(vertex.bsdf, vertex.wo, wi);
+    const Rgbf f = vertex.bsdf.eval(vertex.wo, wi);
     if (is_black(f)) return {};
     ++counters_.bounce_rays;
     const Vec3f direction = vertex.frame.to_world(wi);
@@ -150,11 +163,12 @@ class Path {
     return f * emission(hit, direction, std::nullopt) * (std::abs(wi.z) / pdf_w);
   }
 
-  /// Ends paths at random and scales the survivors up, so that the mean stays.
-  bool survives_roulette(int depth, Rgbf& throughput) {
+  /// Ends paths at random and scales the survivors up, so that the mean stays. What counts is the
+  /// throughput without the scale of refractions: it comes back when the path leaves the glass.
+  bool survives_roulette(int depth, float radiance_scale, Rgbf& throughput) {
     if (depth < options_.rr_depth) return true;
     // 0.95 as in Mitsuba: without a cap a path in a white closed room would never end.
-    const float survival = std::min(max_component(throughput), 0.95f);
+    const float survival = std::min(max_component(throughput) / radiance_scale, 0.95f);
     if (!(random_.next_1d() < survival)) return false;
     throughput = throughput / survival;
     return true;

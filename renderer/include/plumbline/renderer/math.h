@@ -42,6 +42,66 @@ T safe_sqrt(const T& x) {
   return x > T(0) ? T(sqrt(x)) : T(0);
 }
 
+/// What float widens to where a difference would cancel: double. Other scalars stay what they are.
+template <class T>
+using Wide = std::conditional_t<std::is_same_v<T, float>, double, T>;
+
+/// eˣ − 1 without cancellation, also for scalars that have no expm1 of their own.
+template <class T>
+T exp_minus_1(const T& x) {
+  if constexpr (is_builtin_float<T>) {
+    return std::expm1(x);
+  } else {
+    using std::exp, std::sinh;
+    const T half = x / T(2);
+    return T(2) * sinh(half) * exp(half);
+  }
+}
+
+/// ln(1 + x) without cancellation, for x > −1.
+template <class T>
+T log_1_plus(const T& x) {
+  if constexpr (is_builtin_float<T>) {
+    return std::log1p(x);
+  } else {
+    using std::atanh;
+    return T(2) * atanh(T(x / (T(2) + x)));
+  }
+}
+
+template <class T>
+struct SinCos {
+  T sin, cos;
+};
+
+/// sin and cos of 2πu.
+///
+/// In float by polynomials on an eighth of a turn, whose reduction is exact because whole turns
+/// need no π; libm's argument reduction costs more than the rest of a BSDF sample.
+/// @param u  in [0, 1]
+/// @source   coefficients of Cephes (Moshier), sinf.c; absolute error below 1.2e-7
+template <class T>
+SinCos<T> sin_cos_turns(const T& u) {
+  if constexpr (std::is_same_v<T, float>) {
+    const int quarter = static_cast<int>(4.0f * u + 0.5f);
+    const float x = 2 * pi<float>() * (u - 0.25f * static_cast<float>(quarter));
+    const float x2 = x * x;
+    const float s =
+        x + x * x2 * (-1.6666654611e-1f + x2 * (8.3321608736e-3f - x2 * 1.9515295891e-4f));
+    const float c =
+        1.0f - 0.5f * x2 +
+        x2 * x2 *
+            (4.166664568298827e-2f + x2 * (-1.388731625493765e-3f + x2 * 2.443315711809948e-5f));
+    const bool swapped = (quarter & 1) != 0;
+    const float sine = swapped ? c : s, cosine = swapped ? s : c;
+    return {(quarter & 2) != 0 ? -sine : sine, ((quarter + 1) & 2) != 0 ? -cosine : cosine};
+  } else {
+    using std::cos, std::sin;
+    const T angle = T(2) * pi<T>() * u;
+    return {T(sin(angle)), T(cos(angle))};
+  }
+}
+
 template <class T>
 struct Vec2 {
   T x{}, y{};

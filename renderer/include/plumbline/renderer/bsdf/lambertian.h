@@ -16,6 +16,8 @@ namespace plumbline::renderer {
 struct Lambertian {
   Rgbf albedo;  ///< per channel, [0, 1]
 
+  static constexpr BsdfParts parts() { return {.density = true}; }
+
   /// @param wo, wi  unit vectors in the local frame, pointing away from the surface
   /// @return        f [1/sr], without the cosine; 0 unless both are above the horizon
   template <class T>
@@ -33,7 +35,7 @@ struct Lambertian {
     if (!(wi.z > T(0))) return std::nullopt;
     // f cosθ / pdf_w = (albedo/π) cosθ / (cosθ/π): the cosine never enters, so nothing is lost at
     // grazing.
-    return BsdfSample<T>{wi, rgb_cast<T>(albedo), pdf(wo, wi), Lobe::diffuse};
+    return BsdfSample<T>{.wi = wi, .weight = rgb_cast<T>(albedo), .pdf_w = pdf(wo, wi)};
   }
 
   /// @return pdf_w [1/sr] of `sample(wo, u)`

@@ -53,7 +53,7 @@ class Scene {
   /// @return whether anything lies on the ray before t_max
   bool occluded(const Ray& ray) const;
 
-  const Bsdf& bsdf(std::uint32_t index) const { return bsdfs_[index]; }
+  BsdfRef bsdf(std::uint32_t index) const { return {bsdfs_, index}; }
   const LightSet& lights() const { return lights_; }
   /// Index of the environment in lights(), or kNoLight.
   std::uint32_t environment() const { return environment_; }
@@ -65,7 +65,7 @@ class Scene {
 
  private:
   std::unique_ptr<SceneGeometry> geometry_;
-  std::vector<Bsdf> bsdfs_;
+  BsdfSet bsdfs_;
   LightSet lights_;
   std::uint32_t environment_ = kNoLight;
   Camera camera_;

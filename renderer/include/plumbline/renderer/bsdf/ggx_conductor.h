@@ -1,0 +1,75 @@
+#pragma once
+
+#include <optional>
+
+#include <plumbline/renderer/bsdf/bsdf_sample.h>
+#include <plumbline/renderer/bsdf/fresnel.h>
+#include <plumbline/renderer/bsdf/ggx.h>
+
+namespace plumbline::renderer {
+
+/// Rough metal: single scattering between GGX microfacets. Black from behind, like Mitsuba's
+/// `roughconductor` with the distribution `ggx`.
+///
+/// With F ≡ 1 its albedo is what the microsurface does not mask: 1 minus the light that a second
+/// bounce would get, which this model loses.
+struct GgxConductor {
+  Ggx ggx;
+  ConductorFresnel fresnel;
+
+  static constexpr BsdfParts parts() { return {.density = true}; }
+
+  /// @param wo, wi  unit vectors in the local frame, pointing away from the surface
+  /// @return        f [1/sr], without the cosine; 0 unless both are above the horizon
+  template <class T>
+  Rgb<T> eval(const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return eval_with(fresnel, wo, wi);
+  }
+
+  /// @param u  in [0, 1)²
+  /// @return   nullopt for wo from behind, or wi below the horizon: light that is lost
+  template <class T>
+  std::optional<BsdfSample<T>> sample(const Vec3<T>& wo, const Vec2<T>& u) const {
+    return sample_with(fresnel, wo, u);
+  }
+
+  /// @return pdf_w [1/sr] of `sample(wo, u)`
+  /// @source Heitz 2018 (JCGT 7:4), Eq. 3, with the half-vector Jacobian 1/(4 wo·h) of Walter et
+  ///         al. 2007, Eq. 14: G1 (wo·h) D/cosθo /(4 wo·h), where G1/cosθo = 2/(cosθo + S)
+  template <class T>
+  T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
+    if (!(wo.z > T(0) && wi.z > T(0))) return T(0);
+    return ggx.density(wo + wi) / (T(2) * (wo.z + ggx.stretched_length(wo)));
+  }
+
+  /// The same under another reflectance, a function of the cosine: what a film makes of it.
+  ///
+  /// @source Walter et al. 2007, Eq. 20: F D G/(4 cosθo cosθi), where Smith's G1/cosθ = 2/(cosθ +
+  ///         S) takes both cosines out, so that nothing is divided by a cosine near 0
+  template <class T, class Reflectance>
+  Rgb<T> eval_with(const Reflectance& reflectance, const Vec3<T>& wo, const Vec3<T>& wi) const {
+    using std::sqrt;
+    if (!(wo.z > T(0) && wi.z > T(0))) return {};
+    const Vec3<T> h = wo + wi;
+    // wo·h = |wo + wi|/2 for unit vectors; the scalar product would cancel where wi → −wo.
+    const T cosine = std::min(T(sqrt(length_squared(h)) / T(2)), T(1));
+    return reflectance(cosine) * T(ggx.density(h) / ((wo.z + ggx.stretched_length(wo)) *
+                                                     (wi.z + ggx.stretched_length(wi))));
+  }
+
+  template <class T, class Reflectance>
+  std::optional<BsdfSample<T>> sample_with(const Reflectance& reflectance, const Vec3<T>& wo,
+                                           const Vec2<T>& u) const {
+    using std::sqrt;
+    if (!(wo.z > T(0))) return std::nullopt;
+    const auto visible = ggx.sample_visible(wo, u);
+    const Vec3<T> wi = reflect(wo, visible);
+    if (!(wi.z > T(0))) return std::nullopt;
+    // f cosθi/pdf_w = F G1(wi): D, which may be huge, never enters. Heitz 2018, Eq. 19.
+    const T cosine = std::min(T(visible.cosine / sqrt(length_squared(visible.normal))), T(1));
+    return BsdfSample<T>{
+        .wi = wi, .weight = reflectance(cosine) * ggx.masking(wi), .pdf_w = pdf(wo, wi)};
+  }
+};
+
+}  // namespace plumbline::renderer

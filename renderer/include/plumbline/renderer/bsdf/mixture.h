@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <plumbline/renderer/bsdf/bsdf_sample.h>
+
+namespace plumbline::renderer {
+
+/// f = (1 − weight) f_first + weight f_second, like Mitsuba's `blendbsdf`. Samples the second with
+/// probability `weight`.
+struct Mixture {
+  std::uint32_t first, second;  ///< indices
+  float weight;                 ///< of the second, [0, 1]
+
+  std::array<std::uint32_t, 2> children() const { return {first, second}; }
+
+  template <class Set>
+  BsdfParts parts(const Set& set) const {
+    return set.parts(first) | set.parts(second);
+  }
+
+  template <class Set, class T>
+  Rgb<T> eval(const Set& set, const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return set.eval(first, wo, wi) * share<T>(0) + set.eval(second, wo, wi) * share<T>(1);
+  }
+
+  /// @param u  in [0, 1)²; u.x chooses and is then rescaled
+  template <class Set, class T>
+  std::optional<BsdfSample<T>> sample(const Set& set, const Vec3<T>& wo, const Vec2<T>& u) const {
+    const auto choice = choose_lobe(u.x, share<T>(0));
+    const bool chose_second = choice.lobe == 1;
+    auto result = set.sample(chose_second ? second : first, wo, Vec2<T>{choice.u, u.y});
+    if (!result) return std::nullopt;
+    if (chose_second) result->lobe += set.lobe_count(first);
+    // An atom meets no density: its light and its probability shrink alike, and its weight stays.
+    if (result->is_atom()) {
+      result->mass = result->mass * share<T>(choice.lobe);
+      return result;
+    }
+    return with_density_of_both(set, wo, *result);
+  }
+
+  /// @return pdf_w [1/sr] of `sample(wo, u)`
+  template <class Set, class T>
+  T pdf(const Set& set, const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return set.pdf(first, wo, wi) * share<T>(0) + set.pdf(second, wo, wi) * share<T>(1);
+  }
+
+  template <class Set>
+  std::uint32_t lobe_count(const Set& set) const {
+    return set.lobe_count(first) + set.lobe_count(second);
+  }
+
+  template <class Set, class T>
+  T lobe_probability(const Set& set, const Vec3<T>& wo, std::uint32_t lobe) const {
+    const Child child = child_of(set, lobe);
+    return share<T>(child.which) * set.lobe_probability(child.bsdf, wo, child.lobe);
+  }
+
+  template <class Set, class T>
+  std::optional<BsdfSample<T>> sample_lobe(const Set& set, const Vec3<T>& wo, std::uint32_t lobe,
+                                           const Vec2<T>& u) const {
+    const Child child = child_of(set, lobe);
+    auto result = set.sample_lobe(child.bsdf, wo, child.lobe, u);
+    if (result) result->lobe = lobe;
+    return result;
+  }
+
+  template <class Set, class T>
+  T pdf_lobe(const Set& set, const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) const {
+    const Child child = child_of(set, lobe);
+    return set.pdf_lobe(child.bsdf, wo, wi, child.lobe);
+  }
+
+ private:
+  struct Child {
+    std::uint32_t which, bsdf, lobe;
+  };
+
+  template <class Set>
+  Child child_of(const Set& set, std::uint32_t lobe) const {
+    const std::uint32_t in_first = set.lobe_count(first);
+    return lobe < in_first ? Child{0, first, lobe} : Child{1, second, lobe - in_first};
+  }
+
+  /// Share of the light and probability of a child: the same number.
+  template <class T>
+  T share(std::uint32_t which) const {
+    return which == 0 ? T(1) - T(weight) : T(weight);
+  }
+
+  /// The weight of a density sample that either child could have made: Σ w_k f_k cosθi / pdf.
+  template <class Set, class T>
+  std::optional<BsdfSample<T>> with_density_of_both(const Set& set, const Vec3<T>& wo,
+                                                    BsdfSample<T> sample) const {
+    using std::abs;
+    sample.pdf_w = pdf(set, wo, sample.wi);
+    if (!(sample.pdf_w > T(0))) return std::nullopt;
+    sample.weight = eval(set, wo, sample.wi) * T(abs(sample.wi.z) / sample.pdf_w);
+    return sample;
+  }
+};
+
+}  // namespace plumbline::renderer

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <plumbline/renderer/bsdf/bsdf_sample.h>
+
+namespace plumbline::renderer {
+
+/// Gives each side of a surface a one-sided BSDF, like Mitsuba's `twosided`. Seen from behind the
+/// local frame is mirrored at the surface: only z changes its sign.
+struct TwoSided {
+  std::uint32_t front, back;  ///< indices of BSDFs without transmission
+
+  std::array<std::uint32_t, 2> children() const { return {front, back}; }
+
+  template <class Set>
+  BsdfParts parts(const Set& set) const {
+    return set.parts(front) | set.parts(back);
+  }
+
+  /// @return f [1/sr], without the cosine; 0 unless wo and wi are on the same side
+  template <class Set, class T>
+  Rgb<T> eval(const Set& set, const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return set.eval(side(wo), to_front(wo, wo), to_front(wo, wi));
+  }
+
+  template <class Set, class T>
+  std::optional<BsdfSample<T>> sample(const Set& set, const Vec3<T>& wo, const Vec2<T>& u) const {
+    return from_front(wo, set.sample(side(wo), to_front(wo, wo), u));
+  }
+
+  /// @return pdf_w [1/sr] of `sample(wo, u)`
+  template <class Set, class T>
+  T pdf(const Set& set, const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return set.pdf(side(wo), to_front(wo, wo), to_front(wo, wi));
+  }
+
+  /// The larger of both sides: a lobe that one of them lacks has probability 0 there.
+  template <class Set>
+  std::uint32_t lobe_count(const Set& set) const {
+    return std::max(set.lobe_count(front), set.lobe_count(back));
+  }
+
+  template <class Set, class T>
+  T lobe_probability(const Set& set, const Vec3<T>& wo, std::uint32_t lobe) const {
+    if (lobe >= set.lobe_count(side(wo))) return T(0);
+    return set.lobe_probability(side(wo), to_front(wo, wo), lobe);
+  }
+
+  template <class Set, class T>
+  std::optional<BsdfSample<T>> sample_lobe(const Set& set, const Vec3<T>& wo, std::uint32_t lobe,
+                                           const Vec2<T>& u) const {
+    if (lobe >= set.lobe_count(side(wo))) return std::nullopt;
+    return from_front(wo, set.sample_lobe(side(wo), to_front(wo, wo), lobe, u));
+  }
+
+  template <class Set, class T>
+  T pdf_lobe(const Set& set, const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) const {
+    if (lobe >= set.lobe_count(side(wo))) return T(0);
+    return set.pdf_lobe(side(wo), to_front(wo, wo), to_front(wo, wi), lobe);
+  }
+
+ private:
+  template <class T>
+  std::uint32_t side(const Vec3<T>& wo) const {
+    return wo.z < T(0) ? back : front;
+  }
+
+  template <class T>
+  static Vec3<T> to_front(const Vec3<T>& wo, const Vec3<T>& w) {
+    return wo.z < T(0) ? Vec3<T>{w.x, w.y, T(-w.z)} : w;
+  }
+
+  template <class T>
+  static std::optional<BsdfSample<T>> from_front(const Vec3<T>& wo,
+                                                 std::optional<BsdfSample<T>> sample) {
+    if (sample) sample->wi = to_front(wo, sample->wi);
+    return sample;
+  }
+};
+
+}  // namespace plumbline::renderer
