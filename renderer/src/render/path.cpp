@@ -38,7 +38,7 @@ struct Vertex {
   BsdfRef bsdf;
   Frame<float> frame;
   Vec3f wo;   // local
-  Vec3f ref;  // where rays towards lights start, and what light densities refer to
+  Vec3f ref;  // what light densities refer to
 };
 
 /// What the weight of emission at the end of a BSDF ray depends on: the vertex behind it.
@@ -96,7 +96,7 @@ class Path {
 
   Vertex vertex_at(const SurfaceHit& hit, const Vec3f& wo) const {
     const Frame<float> frame(hit.normal);
-    return {hit, scene_.bsdf(hit.bsdf), frame, frame.to_local(wo), hit.origin_towards(wo)};
+    return {hit, scene_.bsdf(hit.bsdf), frame, frame.to_local(wo), hit.position};
   }
 
   /// The light that a ray ends on, if it shows its emitting side.
@@ -142,7 +142,7 @@ class Path {
 
   bool is_visible(const Vertex& vertex, const LightSample<float>& light) {
     ++counters_.shadow_rays;
-    const Ray ray = shadow_ray(vertex.hit, vertex.ref, light);
+    const Ray ray = shadow_ray(vertex.hit, light);
     return !(ray.t_max > 0) || !scene_.occluded(ray);
   }
 

@@ -164,13 +164,14 @@ bool Scene::occluded(const Ray& ray) const { return geometry_->occluded(ray); }
 
 RTCSceneTy* Scene::embree_scene() const { return geometry_->embree_scene(); }
 
-Ray shadow_ray(const SurfaceHit& hit, const Vec3f& ref, const LightSample<float>& light) {
+Ray shadow_ray(const SurfaceHit& hit, const LightSample<float>& light) {
   Ray ray{hit.origin_towards(light.wi), light.wi};
   if (std::isfinite(light.distance)) {
-    const Vec3f end = ref + light.wi * light.distance;
-    // Along the ray the offset from the light's plane is longer by 1/cosθ.
-    ray.t_max =
-        light.distance - ray_offset(std::max(max_norm(end), max_norm(ref))) / light.cos_light;
+    const Vec3f end = hit.position + light.wi * light.distance;
+    // One offset before the light, and the start is up to one offset nearer to it than the point
+    // that the distance counts from; along the ray both are longer by 1/cosθ.
+    const float light_offset = ray_offset(std::max(max_norm(end), max_norm(hit.position)));
+    ray.t_max = light.distance - (light_offset + hit.offset) / light.cos_light;
   }
   return ray;
 }

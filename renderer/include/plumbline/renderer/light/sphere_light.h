@@ -17,7 +17,8 @@ struct SphereLight {
 
   /// @param ref  reference point, world space
   /// @param u    in [0, 1)²
-  /// @return     nullopt where ref is on the side that emits nothing
+  /// @return     nullopt where ref is inside a sphere that emits outwards, or a sample sees no
+  /// front
   template <class T>
   std::optional<LightSample<T>> sample(const Vec3<T>& ref, const Vec2<T>& u) const {
     return inward ? sample_from_inside(ref, u) : sample_cone(ref, u);
@@ -93,14 +94,11 @@ struct SphereLight {
     return T(1) / (T(4) * pi<T>() * sqr(T(radius)));
   }
 
-  template <class T>
-  bool is_inside(const Vec3<T>& ref) const {
-    return length_squared(ref - vec_cast<T>(center)) < sqr(T(radius));
-  }
-
+  // A reference point on the sphere itself (a closed furnace) may lie outside by a rounding error,
+  // so none is refused for its side: from outside the far wall is sampled, and the near one shadows
+  // it.
   template <class T>
   std::optional<LightSample<T>> sample_from_inside(const Vec3<T>& ref, const Vec2<T>& u) const {
-    if (!is_inside(ref)) return std::nullopt;
     const Vec3<T> n = square_to_uniform_sphere(u);
     const Vec3<T> point = vec_cast<T>(center) + n * T(radius);
     return from_area_sample(point - ref, -n, pdf_a<T>(), rgb_cast<T>(radiance));
@@ -108,13 +106,12 @@ struct SphereLight {
 
   template <class T>
   T pdf_from_inside(const Vec3<T>& ref, const Vec3<T>& wi) const {
-    if (!is_inside(ref)) return T(0);
-    // From inside the half chord is √(R² − |m|² sin²) and the far root −m·wi + half chord ≥ 0.
+    // The far root of |m + t wi|² = R² is −m·wi + half chord; the half chord is √(R² − |m|² sin²).
     const Vec3<T> m = ref - vec_cast<T>(center);
     const T half_chord = safe_sqrt(T(sqr(T(radius)) - length_squared(cross(m, wi))));
     const T distance = half_chord - dot(m, wi);
-    const T cos_light = half_chord / T(radius);
-    return cos_light > T(0) ? T(pdf_a<T>() * sqr(distance) / cos_light) : T(0);
+    if (!(half_chord > T(0) && distance > T(0))) return T(0);
+    return pdf_a<T>() * sqr(distance) * T(radius) / half_chord;
   }
 };
 

@@ -82,11 +82,10 @@ inline float max_norm(const Vec3f& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// The ray that asks whether a sampled light is visible from a surface point. It stops at the plane
-/// one ray offset before the light, so that the light does not shadow itself.
+/// The ray that asks whether a light sampled from `hit.position` is visible from there. It stops at
+/// the plane one ray offset before the light, so that the light does not shadow itself.
 ///
-/// @param ref  the point that the light was sampled from
-/// @return     t_max ≤ 0 where nothing can lie between
-Ray shadow_ray(const SurfaceHit& hit, const Vec3f& ref, const LightSample<float>& light);
+/// @return t_max ≤ 0 where nothing can lie between
+Ray shadow_ray(const SurfaceHit& hit, const LightSample<float>& light);
 
 }  // namespace plumbline::renderer
