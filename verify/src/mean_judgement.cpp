@@ -13,8 +13,8 @@ namespace plumbline::verify {
 namespace {
 
 constexpr std::uint64_t kMinimumSamples = 1'000;
-constexpr std::uint64_t kEnoughEqualSamples = 20'000;
-constexpr std::uint64_t kEnoughZeros = 1u << 20;
+constexpr std::uint64_t kEnoughZerosToPass = 20'000;
+constexpr std::uint64_t kEnoughZerosToFail = 1u << 20;
 // Reached by a Bernoulli estimator after 400 hits; see docs/statistics.md for what it guarantees.
 constexpr double kSkewnessLimit = 0.05;
 constexpr double kShareLimit = 0.05;
@@ -39,12 +39,10 @@ bool is_constant(const Evidence& e, double allowance) {
 
 bool is_all_zero(const Evidence& e) { return e.smallest == 0 && e.largest == 0; }
 
-/// Chance of nothing but zeros in n samples: X ≥ 0 with mean μ and second moment m₂ is positive
-/// with probability ≥ μ²/m₂ (Cauchy–Schwarz).
-double chance_of_zeros(const MeanQuestion& q, std::uint64_t n) {
-  const double m1_squared = q.reference * q.reference;
-  const double p = m1_squared / (q.exact_variance + m1_squared);
-  return std::exp(static_cast<double>(n) * std::log1p(-p));
+/// Chance, at most, that n samples all lie `distance` or more to the same side of their true mean:
+/// each does with probability ≤ σ²/(σ² + distance²) (Cantelli).
+double chance_of_distance(double variance, double distance, std::uint64_t n) {
+  return std::exp(-static_cast<double>(n) * std::log1p(distance * distance / variance));
 }
 
 /// Why no verdict may be given on skewed or scarce samples; empty if one may.
@@ -81,37 +79,71 @@ std::string exact_variance_doubt(const Evidence& estimated, const Evidence& exac
          "variance is wrong";
 }
 
+/// Equal samples c: what none of n samples showed has a probability of at most ln(1/level)/n, and
+/// is taken to deviate from c by no more than |c|. That bounds the bias that may hide.
+double hidden_bias(double value, std::uint64_t n, double level) {
+  return std::abs(value) * std::log(1 / level) / static_cast<double>(n);
+}
+
+void judge_zeros(const MeanQuestion& q, const Evidence& e, CheckResult& r) {
+  const double distance = std::abs(q.reference);
+  r.bound = distance;
+  r.interval_low = r.interval_high = 0;
+  if (distance <= q.rounding_allowance) {
+    r.p_value = 1;
+    if (e.samples >= kEnoughZerosToPass && distance <= q.tolerance) {
+      r.verdict = Verdict::pass;
+    } else {
+      r.reason = "all samples are 0; 20000 are needed to trust that";
+    }
+    return;
+  }
+  if (e.samples >= kEnoughZerosToFail) r.verdict = Verdict::fail;
+  r.reason = "all " + number(e.samples) + " samples are 0, the answer is " + number(q.reference);
+}
+
+/// Equal samples away from the answer, under an exact variance: fails when that is too improbable.
+bool judge_improbable(const MeanQuestion& q, const Evidence& e, double excess, CheckResult& r) {
+  if (!std::isfinite(q.exact_variance) || !(q.exact_variance > 0) || !(excess > 0)) return false;
+  r.leaned_on = "exact variance";
+  r.p_value = chance_of_distance(q.exact_variance, excess, e.samples);
+  r.bound = std::abs(e.estimate - q.reference);
+  if (r.p_value <= q.fail_level) r.verdict = Verdict::fail;
+  r.reason = "all " + number(e.samples) + " samples equal " + number(e.estimate) +
+             ", the answer is " + number(q.reference);
+  return true;
+}
+
 void judge_constant(const MeanQuestion& q, const Evidence& e, CheckResult& r) {
   r.leaned_on = "all samples equal";
   const double spread = std::isfinite(e.largest - e.smallest) ? e.largest - e.smallest : 0.0;
   const double distance = std::abs(e.estimate - q.reference);
-  r.bound = distance + spread;
-  r.interval_low = e.estimate - spread;
-  r.interval_high = e.estimate + spread;
-  r.detectable = q.rounding_allowance + spread;
-  const bool differs = !(distance <= q.rounding_allowance + spread);
-  r.p_value = differs ? 0 : 1;
-  if (is_all_zero(e) && differs) {
-    const bool improbable = std::isfinite(q.exact_variance)
-                                ? chance_of_zeros(q, e.samples) <= q.fail_level
-                                : e.samples >= kEnoughZeros;
-    if (std::isfinite(q.exact_variance)) {
-      r.p_value = chance_of_zeros(q, e.samples);
-      r.leaned_on = "exact variance";
-    }
-    r.verdict = improbable ? Verdict::fail : Verdict::inconclusive;
-    r.reason = "all " + number(e.samples) + " samples were 0, the answer is " + number(q.reference);
-    if (!improbable) r.p_value = kNotApplicable;
-  } else if (e.samples < kEnoughEqualSamples) {
-    r.p_value = kNotApplicable;
-    r.reason = "all samples equal " + number(e.estimate) + "; 20000 are needed to trust that";
-  } else if (differs) {
+  const double excess = distance - spread - q.rounding_allowance;
+  if (judge_improbable(q, e, excess, r)) return;
+  if (is_all_zero(e)) {
+    judge_zeros(q, e, r);
+    return;
+  }
+  const double hidden = hidden_bias(e.estimate, e.samples, q.pass_level);
+  r.bound = distance + spread + hidden;
+  r.interval_low = e.estimate - spread - hidden;
+  r.interval_high = e.estimate + spread + hidden;
+  r.detectable =
+      q.rounding_allowance + spread + hidden_bias(e.estimate, q.max_samples, q.last_fail_level);
+  r.p_value =
+      excess > 0
+          ? std::exp(-static_cast<double>(e.samples) * std::min(1.0, excess / std::abs(e.estimate)))
+          : 1.0;
+  if (e.samples < kMinimumSamples) {
+    r.reason = "only " + number(e.samples) + " samples; at least 1000 are needed";
+  } else if (excess > hidden_bias(e.estimate, e.samples, q.fail_level)) {
     r.verdict = Verdict::fail;
     r.reason = "all samples equal " + number(e.estimate) + ", the answer is " + number(q.reference);
-  } else if (r.bound <= q.tolerance) {
+  } else if (excess <= 0 && r.bound <= q.tolerance) {
     r.verdict = Verdict::pass;
   } else {
-    r.reason = "the rounding allowance exceeds the tolerance";
+    r.reason = "all samples equal " + number(e.estimate) + "; " + number(e.samples) +
+               " are too few to exclude what they have not shown";
   }
 }
 
@@ -145,7 +177,7 @@ void judge_difference(const MeanQuestion& q, const Evidence& e, const std::strin
   } else if (!(r.bound <= q.tolerance)) {
     r.reason = "neither a difference nor |bias| <= " + number(q.tolerance) + " is proven after " +
                number(e.samples) + " samples";
-  } else if (!(e.tail_index > kTailLimit)) {
+  } else if (!std::isfinite(q.exact_variance) && !(e.tail_index > kTailLimit)) {
     r.reason = "the largest samples fall off with index " + number(e.tail_index) +
                " or less: the variance looks infinite";
   } else {

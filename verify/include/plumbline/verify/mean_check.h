@@ -71,14 +71,15 @@ struct MeanOptions {
 /// Skewed samples: statistics are corrected for skewness (Hall's transformation) and the less
 /// extreme of the corrected and the plain one counts. No verdict while the skewness of the estimate
 /// exceeds 0.05, one sample carries more than 5 % of the squared deviations, or fewer than 1,000
-/// samples are in. No pass while the tail looks so heavy that the variance is infinite, and no
-/// verdict while the samples show less than half or more than twice the exact variance, if that is
-/// given.
+/// samples are in. No pass while the tail looks so heavy that the variance is infinite. Where an
+/// exact variance is given it decides instead: no verdict while the samples show less than half or
+/// more than twice of it.
 ///
-/// Samples that are all equal (to within the rounding allowance) have no error to estimate. They
-/// pass from 20,000 samples on, if within the tolerance; they fail from 20,000 on if they are not
-/// 0, and from 2^20 on if they are all 0, since that is also what a rare event looks like. With an
-/// exact variance all zeros fail as soon as they are too improbable under it.
+/// Samples that are all equal (to within the rounding allowance) have no error to estimate. What
+/// none of n samples has shown has a probability of at most ln(1/level)/n and is taken to deviate
+/// from their common value c by at most |c|: that bounds the bias for a pass, and is what a fail
+/// must exceed. All zeros may be a rare event instead: they pass from 20,000 samples on and fail
+/// from 2^20 on, or, with an exact variance, as soon as they are too improbable under it.
 ///
 /// @source Hall 1992 (J. R. Stat. Soc. B 54:1), transformation g of Section 2 · two one-sided
 /// tests:
