@@ -53,8 +53,9 @@ function formatPercent(value) {
   const x = toNumber(value);
   if (Number.isNaN(x)) return '–';
   if (!Number.isFinite(x)) return '∞';
+  if (x === 0) return '0 %';
   const percent = Math.abs(x) * 100;
-  if (percent >= 1000 || (percent > 0 && percent < 1e-3)) return `${formatNumber(percent, 2)} %`;
+  if (percent >= 1000 || percent < 1e-3) return `${formatNumber(percent, 2)} %`;
   return `${percent >= 10 ? percent.toFixed(0) : percent.toPrecision(2)} %`;
 }
 

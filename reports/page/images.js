@@ -39,7 +39,7 @@ function startingExposure(images) {
   });
   const brightest = Math.max(...bright);
   if (!(brightest > 0)) return 0;
-  return Math.max(-10, Math.min(10, Math.round(2 * Math.log2(0.9 / brightest)) / 2));
+  return Math.max(-10, Math.min(10, Math.floor(2 * Math.log2(0.9 / brightest)) / 2));
 }
 
 class Picture {
