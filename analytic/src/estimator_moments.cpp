@@ -55,16 +55,19 @@ Moments draw_moments(const Integral1d& integral, const std::vector<Source>& sour
   };
   const double mean = moment([](double g) { return g; }, 1e-16 * integral.value).value;
   // g − mean is a few ulp of the integral off: where g hardly varies, its powers are made of that.
-  const double scale = integral.value * integral.value;
-  const double noise = 1e-17 * scale;
-  const Quadrature variance = moment([=](double g) { return (g - mean) * (g - mean); }, noise);
-  const double fourth =
-      moment([=](double g) { return std::pow(g - mean, 4); }, noise * scale).value;
-  return {mean, variance.value, fourth, variance.error};
+  const auto central = [&](int k) {
+    return moment([=](double g) { return std::pow(g - mean, k); },
+                  1e-17 * std::pow(integral.value, k));
+  };
+  const Quadrature variance = central(2);
+  return {mean,          variance.value, central(3).value, central(4).value, central(6).value,
+          variance.error};
 }
 
-/// Moments of the sum of independent terms, each `copies` times: means, variances and fourth
-/// cumulants add.
+Moments infinite(double mean) { return {mean, kInfinity, kInfinity, kInfinity, kInfinity, 0}; }
+
+/// Moments of the sum of independent terms, each `copies` times: the mean and all cumulants add.
+/// With central moments m: κ₂ = m₂, κ₃ = m₃, κ₄ = m₄ − 3 m₂², κ₆ = m₆ − 15 m₄m₂ − 10 m₃² + 30 m₂³.
 struct Term {
   Moments of_one;
   double copies = 1;
@@ -72,24 +75,31 @@ struct Term {
 
 Moments sum_moments(const std::vector<Term>& terms) {
   Moments sum;
-  double cumulant = 0;
-  for (const Term& term : terms) {
-    const Moments& one = term.of_one;
-    sum.mean += term.copies * one.mean;
-    sum.variance += term.copies * one.variance;
-    if (one.variance < kInfinity) {
-      cumulant += term.copies * (one.fourth - 3 * one.variance * one.variance);
-    }
-    sum.variance_error += term.copies * one.variance_error;
+  double k4 = 0;
+  double k6 = 0;
+  for (const auto& [one, copies] : terms) {
+    const double m2 = one.variance;
+    sum.mean += copies * one.mean;
+    sum.variance += copies * m2;
+    sum.third += copies * one.third;
+    sum.variance_error += copies * one.variance_error;
+    k4 += copies * (one.fourth - 3 * m2 * m2);
+    k6 += copies *
+          (one.sixth - 15 * one.fourth * m2 - 10 * one.third * one.third + 30 * m2 * m2 * m2);
   }
-  sum.fourth = sum.variance < kInfinity ? cumulant + 3 * sum.variance * sum.variance : kInfinity;
+  if (std::isinf(sum.variance)) return infinite(sum.mean);
+  const double m2 = sum.variance;
+  sum.fourth = k4 + 3 * m2 * m2;
+  sum.sixth = k6 + 15 * k4 * m2 + 10 * sum.third * sum.third + 15 * m2 * m2 * m2;
   return sum;
 }
 
 Moments scaled(Moments moments, double factor) {
   moments.mean *= factor;
   moments.variance *= factor * factor;
+  moments.third *= std::pow(factor, 3);
   moments.fourth *= std::pow(factor, 4);
+  moments.sixth *= std::pow(factor, 6);
   moments.variance_error *= factor * factor;
   return moments;
 }
@@ -141,7 +151,7 @@ Moments single_moments(const Integral1d& integral, std::size_t i) {
     const Quadrature mean = integrate_pieces(
         integral.f, make_cuts(std::max(integral.low, density.low),
                               std::min(integral.high, density.high), integral.breaks));
-    return {mean.value, kInfinity, kInfinity, 0};
+    return infinite(mean.value);
   }
   return draw_moments(integral, {{1, i, ratio}}, {});
 }

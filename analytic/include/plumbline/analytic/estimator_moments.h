@@ -23,11 +23,14 @@ struct WeightRule {
 /// @source Veach 1997: balance Eq. 9.8, the others Section 9.2.3
 double weight(const WeightRule& rule, const std::vector<double>& q, std::size_t i);
 
-/// Of one evaluation of an estimator. Infinite where the integral diverges.
+/// Of one evaluation F of an estimator: its mean μ and central moments E[(F − μ)^k]. Those above
+/// the first are infinite where the variance is.
 struct Moments {
   double mean = 0;
   double variance = 0;
-  double fourth = 0;          ///< central: E[(F − mean)⁴]
+  double third = 0;
+  double fourth = 0;
+  double sixth = 0;
   double variance_error = 0;  ///< quadrature's estimate, absolute
 };
 
