@@ -3,9 +3,11 @@
 #include <plumbline_tests/support.h>
 #include <stdlib.h>
 
+#include <chrono>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "samples.h"
 
@@ -73,6 +75,22 @@ TEST(ExpectVerdict, LogsTheResultWithSeedAndReplay) {
   ASSERT_EQ(read.checks.size(), 1u);
   EXPECT_EQ(read.checks[0].seed, 77u);
   EXPECT_EQ(read.checks[0].replay, replay_command());
+}
+
+TEST(ExpectVerdict, SecondsAreThoseSinceTheLastResult) {
+  const ScratchDirectory scratch;
+  const ScopedVariable results("PLUMBLINE_RESULTS", scratch.path().string());
+  verify::CheckResult timed = result_with(verify::Verdict::pass, verify::Verdict::pass);
+  verify::CheckResult untimed = timed;
+  timed.seconds = 100;
+  untimed.seconds = 0;
+  expect_verdict(timed);
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  expect_verdict(untimed);
+  const reports::Results read = reports::read_results(scratch.path());
+  ASSERT_EQ(read.checks.size(), 2u);
+  EXPECT_EQ(read.checks[0].seconds, 100) << "what a check has measured itself stands";
+  EXPECT_GE(read.checks[1].seconds, 0.025);
 }
 
 TEST(ExpectVerdict, UnexpectedVerdictFailsTheTestWithSubjectAndReplay) {

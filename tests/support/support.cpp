@@ -2,8 +2,10 @@
 #include <plumbline_tests/support.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 #include <system_error>
@@ -47,6 +49,20 @@ std::string quoted_for_regex(std::string_view text) {
   return quoted;
 }
 
+/// Seconds since the running test began or last asked, whichever is later: what the check in hand
+/// took.
+double seconds_since_last_check() {
+  static std::int64_t last_ms = 0;
+  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
+  const std::int64_t now_ms =
+      std::chrono::duration_cast<std::chrono::milliseconds>(since_epoch).count();
+  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+  const std::int64_t test_began_ms = test != nullptr ? test->result()->start_timestamp() : now_ms;
+  const std::int64_t began_ms = std::max(last_ms, test_began_ms);
+  last_ms = now_ms;
+  return static_cast<double>(now_ms - began_ms) * 1e-3;
+}
+
 void append_to_results(const verify::CheckResult& result) {
   const char* directory = std::getenv("PLUMBLINE_RESULTS");
   if (directory == nullptr || *directory == '\0') return;
@@ -84,6 +100,8 @@ std::string replay_command() {
 }
 
 void expect_verdict(verify::CheckResult result, const char* file, int line) {
+  const double seconds = seconds_since_last_check();
+  if (result.seconds == 0) result.seconds = seconds;
   if (result.replay.empty()) result.replay = replay_command();
   if (result.seed == 0) result.seed = run_seed();
   append_to_results(result);

@@ -26,9 +26,9 @@ bool nightly();
 std::string replay_command();
 
 /// Holds a result against its expectation: adds a GoogleTest failure that explains itself if it
-/// differs, fills in the replay command of the running test (and run_seed() where no seed is
-/// given), and appends the result to $PLUMBLINE_RESULTS/checks.jsonl, if that variable is set, for
-/// the page.
+/// differs, and appends the result to $PLUMBLINE_RESULTS/checks.jsonl, if that variable is set, for
+/// the page. Fills in what the check left empty: the replay command of the running test,
+/// run_seed(), and the seconds since the test began or the last result in it.
 ///
 /// @param file, line  where the failure is reported: the caller's place
 void expect_verdict(verify::CheckResult result, const char* file = __builtin_FILE(),
