@@ -179,6 +179,27 @@ T max_component(const Rgb<T>& c) {
 }
 
 template <class T>
+T mean(const Rgb<T>& c) {
+  return (c.r + c.g + c.b) / T(3);
+}
+
+/// Scalars beside colours, where a formula serves both.
+template <class T>
+T mean(const T& x) {
+  return x;
+}
+
+template <class T>
+Rgb<T> to_rgb(const T& x) {
+  return {x, x, x};
+}
+
+template <class T>
+Rgb<T> to_rgb(const Rgb<T>& c) {
+  return c;
+}
+
+template <class T>
 bool is_black(const Rgb<T>& c) {
   return c.r == T(0) && c.g == T(0) && c.b == T(0);
 }

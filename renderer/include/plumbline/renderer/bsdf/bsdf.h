@@ -9,17 +9,23 @@
 #include <vector>
 
 #include <plumbline/renderer/bsdf/bsdf_sample.h>
+#include <plumbline/renderer/bsdf/clear_coat.h>
 #include <plumbline/renderer/bsdf/ggx_conductor.h>
+#include <plumbline/renderer/bsdf/ggx_dielectric.h>
 #include <plumbline/renderer/bsdf/lambertian.h>
 #include <plumbline/renderer/bsdf/mixture.h>
+#include <plumbline/renderer/bsdf/modified_phong.h>
 #include <plumbline/renderer/bsdf/smooth_conductor.h>
+#include <plumbline/renderer/bsdf/smooth_dielectric.h>
+#include <plumbline/renderer/bsdf/thin_film.h>
 #include <plumbline/renderer/bsdf/two_sided.h>
 
 namespace plumbline::renderer {
 
 /// Every BSDF of the renderer. The tests walk this list: an alternative without example parameters
 /// does not compile there.
-using Bsdf = std::variant<Lambertian, GgxConductor, SmoothConductor, TwoSided, Mixture>;
+using Bsdf = std::variant<Lambertian, ModifiedPhong, GgxConductor, GgxDielectric, SmoothConductor,
+                          SmoothDielectric, ClearCoat, ThinFilm, TwoSided, Mixture>;
 
 /// A BSDF that refers to others, by their index in the set that it is in.
 template <class B>

@@ -5,21 +5,41 @@
 /// Fresnel's equations for unpolarised light, written without differences that cancel.
 namespace plumbline::renderer {
 
-/// What an interface between two dielectrics does with light.
+/// η_t/η_o, wide because critical angles hang on its last digits.
+///
+/// @param eta           index inside (z < 0) over index outside
+/// @param from_outside  whether wo is outside
 template <class T>
-struct DielectricFresnel {
-  T reflected, transmitted;  ///< shares of the power, sum 1
+Wide<T> relative_index(float eta, bool from_outside) {
+  const auto inside = static_cast<Wide<T>>(eta);
+  return from_outside ? inside : Wide<T>(Wide<T>(1) / inside);
+}
+
+/// What an interface does with the power that falls on it. `S` is a scalar, or an Rgb<T> where the
+/// channels differ.
+template <class S>
+struct PowerSplit {
+  S reflected, transmitted;  ///< sum 1, each ≥ 0 and with relative precision of its own
 };
 
-/// From the cosines on both sides, which say by themselves where total reflection starts.
+/// η cosθt by Snell's law; 0 where all is reflected.
 ///
 /// @param cos_o  on the side that the light comes from, ≥ 0
-/// @param g      η cosθt ≥ 0, with η = η_t/η_o; 0 where all is reflected
 /// @param eta    η_t/η_o > 0
-/// @source       Born, Wolf, Principles of Optics, Section 1.5.2, Eqs. 20–21a; with
-///               g² − cos² = η² − 1 the differences r_s ∝ cos − g and r_p ∝ η² cos − g are products
 template <class T>
-DielectricFresnel<T> fresnel_dielectric(const T& cos_o, const T& g, const T& eta) {
+T refracted_cosine(const T& cos_o, const T& eta) {
+  return safe_sqrt(T((eta - T(1)) * (eta + T(1)) + sqr(cos_o)));
+}
+
+/// Fresnel's equations at the interface of two dielectrics.
+///
+/// Next to the critical angle close numbers are subtracted: call it in `Wide<T>`.
+/// @param cos_o, eta  as for refracted_cosine
+/// @source            Born, Wolf, Principles of Optics, Section 1.5.2, Eqs. 20–21a; with
+///                    g = η cosθt, g² − cos² = η² − 1 turns cos − g and η² cos − g into products
+template <class T>
+PowerSplit<T> fresnel_dielectric(const T& cos_o, const T& eta) {
+  const T g = refracted_cosine(cos_o, eta);
   if (!(g > T(0))) return {T(1), T(0)};
   const T eta2 = sqr(eta);
   const T gap = (eta - T(1)) * (eta + T(1));
@@ -29,38 +49,67 @@ DielectricFresnel<T> fresnel_dielectric(const T& cos_o, const T& g, const T& eta
   return {T((sqr(r_s) + sqr(r_p)) / T(2)), T(T(2) * cos_o * g * (s + eta2 * p))};
 }
 
-/// η cosθt by Snell's law; 0 where all is reflected. In double where T is float, because next to
-/// the critical angle two numbers close to each other are subtracted.
+/// The bare interface of a dielectric, in the form that a film can take the place of.
+struct BareInterface {
+  float eta;  ///< index inside (z < 0) over index outside
+
+  /// @param cos_o         on the side of wo, ≥ 0
+  /// @param from_outside  whether wo is outside
+  template <class T>
+  PowerSplit<T> split(const Wide<T>& cos_o, bool from_outside) const {
+    const auto power = fresnel_dielectric(cos_o, relative_index<T>(eta, from_outside));
+    return {static_cast<T>(power.reflected), static_cast<T>(power.transmitted)};
+  }
+};
+
+/// A complex number over any scalar; std::complex is for built-in ones only.
 template <class T>
-T refracted_cosine(const T& cos_o, const T& eta) {
-  const auto c = static_cast<Wide<T>>(cos_o), n = static_cast<Wide<T>>(eta);
-  return static_cast<T>(safe_sqrt(Wide<T>((n - Wide<T>(1)) * (n + Wide<T>(1)) + c * c)));
-}
+struct Complex {
+  T re, im;
+
+  friend Complex operator*(const Complex& a, const Complex& b) {
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+  }
+  friend Complex operator+(const Complex& a, const Complex& b) {
+    return {a.re + b.re, a.im + b.im};
+  }
+  friend Complex operator*(const Complex& a, const T& s) { return {a.re * s, a.im * s}; }
+};
 
 template <class T>
-DielectricFresnel<T> fresnel_dielectric(const T& cos_o, const T& eta) {
-  return fresnel_dielectric(cos_o, refracted_cosine(cos_o, eta), eta);
+T square_of_modulus(const Complex<T>& a) {
+  return sqr(a.re) + sqr(a.im);
 }
 
-/// Reflectance of a conductor in vacuum or air.
+/// (η + ik) cosθt in an absorbing medium.
 ///
+/// The smaller of both parts comes from the product of them, not from a difference.
 /// @param cos_o  in [0, 1]
-/// @param eta    real part of the refractive index relative to the outside
+/// @param eta    real part of the index relative to the side that the light comes from
 /// @param k      imaginary part, ≥ 0
-/// @source       Born, Wolf, Section 14.2, with η² − k² − sin² = a² − b², ηk = ab: the smaller of a
-///               and b comes from their product, not from a difference
+template <class T>
+Complex<T> refracted_cosine(const T& cos_o, const T& eta, const T& k) {
+  using std::sqrt;
+  const T product = eta * k;
+  const T difference = (eta - k) * (eta + k) - (T(1) - sqr(cos_o));
+  const T magnitude = difference > T(0) ? difference : T(-difference);
+  const T larger = sqrt((sqrt(sqr(difference) + T(4) * sqr(product)) + magnitude) / T(2));
+  const T smaller = larger > T(0) ? T(product / larger) : T(0);
+  return difference > T(0) ? Complex<T>{larger, smaller} : Complex<T>{smaller, larger};
+}
+
+/// Reflectance of a conductor.
+///
+/// @param cos_o, eta, k  as for refracted_cosine
+/// @source               Born, Wolf, Section 14.2, Eqs. 14–17
 template <class T>
 T fresnel_conductor(const T& cos_o, const T& eta, const T& k) {
-  using std::sqrt;
+  const Complex<T> g = refracted_cosine(cos_o, eta, k);
   const T c2 = sqr(cos_o), s2 = T(1) - c2;
-  const T product = eta * k;
-  const T difference = (eta - k) * (eta + k) - s2;
-  const T sum = sqrt(sqr(difference) + T(4) * sqr(product));  // a² + b²
-  const T larger = sqrt((sum + (difference > T(0) ? difference : T(-difference))) / T(2));
-  const T a = difference > T(0) ? larger : T(product / larger);
-  const T s_sum = sum + c2, s_cross = T(2) * a * cos_o;
+  const T g2 = square_of_modulus(g);
+  const T s_sum = g2 + c2, s_cross = T(2) * g.re * cos_o;
   const T r_s = (s_sum - s_cross) / (s_sum + s_cross);
-  const T p_sum = c2 * sum + sqr(s2), p_cross = s_cross * s2;
+  const T p_sum = c2 * g2 + sqr(s2), p_cross = s_cross * s2;
   return r_s * (T(1) + (p_sum - p_cross) / (p_sum + p_cross)) / T(2);
 }
 

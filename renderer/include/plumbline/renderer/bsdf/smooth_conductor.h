@@ -21,8 +21,8 @@ struct SmoothConductor {
 
   /// @return the mirror direction with mass 1; nullopt from behind
   template <class T>
-  std::optional<BsdfSample<T>> sample(const Vec3<T>& wo, const Vec2<T>&) const {
-    return sample_with(fresnel, wo);
+  std::optional<BsdfSample<T>> sample(const Vec3<T>& wo, const Vec2<T>& u) const {
+    return sample_with(fresnel, wo, u);
   }
 
   template <class T>
@@ -32,8 +32,8 @@ struct SmoothConductor {
 
   /// The same under another reflectance, a function of the cosine: what a film makes of it.
   template <class T, class Reflectance>
-  std::optional<BsdfSample<T>> sample_with(const Reflectance& reflectance,
-                                           const Vec3<T>& wo) const {
+  std::optional<BsdfSample<T>> sample_with(const Reflectance& reflectance, const Vec3<T>& wo,
+                                           const Vec2<T>&) const {
     if (!(wo.z > T(0))) return std::nullopt;
     return BsdfSample<T>{.wi = mirror(wo), .weight = reflectance(wo.z), .mass = T(1)};
   }

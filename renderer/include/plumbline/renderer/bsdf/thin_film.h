@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <variant>
+
+#include <plumbline/renderer/bsdf/film_fresnel.h>
+#include <plumbline/renderer/bsdf/ggx_conductor.h>
+#include <plumbline/renderer/bsdf/ggx_dielectric.h>
+#include <plumbline/renderer/bsdf/smooth_conductor.h>
+#include <plumbline/renderer/bsdf/smooth_dielectric.h>
+
+namespace plumbline::renderer {
+
+/// A transparent film on metal or glass: the lobes of the base with the reflectance of film and
+/// base together. Without thickness it is the bare base.
+struct ThinFilm {
+  std::variant<SmoothConductor, GgxConductor, SmoothDielectric, GgxDielectric> base;
+  Film film;
+
+  BsdfParts parts() const {
+    return std::visit([](const auto& b) { return b.parts(); }, base);
+  }
+
+  /// @param wo, wi  unit vectors in the local frame, pointing away from the surface
+  /// @return        f [1/sr], without the cosine, for radiance
+  template <class T>
+  Rgb<T> eval(const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return visit<Rgb<T>>([&](const auto& b) {
+      if constexpr (requires { b.eval_with(coated(b), wo, wi); }) {
+        return b.eval_with(coated(b), wo, wi);
+      } else {
+        return b.eval(wo, wi);  // atoms do not show
+      }
+    });
+  }
+
+  template <class T>
+  std::optional<BsdfSample<T>> sample(const Vec3<T>& wo, const Vec2<T>& u) const {
+    return visit<std::optional<BsdfSample<T>>>(
+        [&](const auto& b) { return b.sample_with(coated(b), wo, u); });
+  }
+
+  /// @return pdf_w [1/sr] of `sample(wo, u)`: a film leaves the directions alone
+  template <class T>
+  T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return visit<T>([&](const auto& b) { return b.pdf(wo, wi); });
+  }
+
+  std::uint32_t lobe_count() const { return parts().transmission ? 2 : 1; }
+
+  template <class T>
+  T lobe_probability(const Vec3<T>& wo, std::uint32_t lobe) const {
+    return visit<T>([&](const auto& b) {
+      if constexpr (requires { b.lobe_probability_with(coated(b), wo, lobe); }) {
+        return b.lobe_probability_with(coated(b), wo, lobe);
+      } else if constexpr (requires { b.lobe_count(); }) {
+        return b.lobe_probability(wo, lobe);
+      } else {
+        return T(1);
+      }
+    });
+  }
+
+  template <class T>
+  std::optional<BsdfSample<T>> sample_lobe(const Vec3<T>& wo, std::uint32_t lobe,
+                                           const Vec2<T>& u) const {
+    return visit<std::optional<BsdfSample<T>>>([&](const auto& b) {
+      if constexpr (requires { b.lobe_count(); }) {
+        return b.sample_lobe_with(coated(b), wo, lobe, u);
+      } else {
+        return b.sample_with(coated(b), wo, u);
+      }
+    });
+  }
+
+  template <class T>
+  T pdf_lobe(const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) const {
+    return visit<T>([&](const auto& b) {
+      if constexpr (requires { b.lobe_count(); }) {
+        return b.pdf_lobe(wo, wi, lobe);
+      } else {
+        return b.pdf(wo, wi);
+      }
+    });
+  }
+
+ private:
+  template <class Result, class Function>
+  Result visit(const Function& function) const {
+    return std::visit([&](const auto& b) -> Result { return function(b); }, base);
+  }
+
+  FilmOnConductor coated(const SmoothConductor& b) const { return {film, b.fresnel}; }
+  FilmOnConductor coated(const GgxConductor& b) const { return {film, b.fresnel}; }
+  FilmOnDielectric coated(const SmoothDielectric& b) const { return {film, b.interface.eta}; }
+  FilmOnDielectric coated(const GgxDielectric& b) const { return {film, b.interface.eta}; }
+};
+
+}  // namespace plumbline::renderer
