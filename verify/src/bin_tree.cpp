@@ -51,6 +51,14 @@ void cut_gap(double low, double high, double step, std::vector<double>& at) {
   at.insert(at.end(), downwards.rbegin(), downwards.rend());
 }
 
+/// A length that the density may vary over: the range of the points, or for a single one its
+/// distance from the nearer end.
+double scale_of(double low, double high, double first_point, double last_point) {
+  if (last_point > first_point) return last_point - first_point;
+  const double nearer = std::min(first_point - low, high - last_point);
+  return nearer > 0 ? nearer : (high - low) / 1024;
+}
+
 /// Pieces of [low, high]: the range of the points with a quarter of it on each side, and the
 /// stretches to both ends. A support that ends within a piece shows at the nodes of the rule,
 /// unless it ends in the outermost fortieth of it.
@@ -58,7 +66,7 @@ Cuts cut_around(double low, double high, double first_point, double last_point) 
   Cuts cuts;
   cuts.at = {low};
   if (last_point >= first_point) {
-    const double range = last_point > first_point ? last_point - first_point : (high - low) / 64;
+    const double range = scale_of(low, high, first_point, last_point);
     const double step = range / 4;
     if (first_point - step > low) {
       cut_gap(low, first_point - step, step, cuts.at);

@@ -17,6 +17,7 @@ struct Estimate {
   bool aligned = false;  // an edge of the support runs through, along one of the axes
   int depth = 0;
   bool sees_zero = false;
+  double cut_off = 0;  // value at an edge of the support that runs through
 
   /// Errors along an aligned edge have one sign, so they add up where others cancel.
   double urgency() const { return aligned ? 8 * error : error; }
@@ -90,11 +91,15 @@ Estimate apply_rule(const Integrand& f, const Cell& cell) {
   if (edge.crosses()) {
     // Across an edge the two rules may agree by chance.
     e.error = std::max(e.error, 0.1 * area * edge.largest());
+    e.cut_off = edge.largest();
     e.aligned = edge.parts(0) != edge.parts(1);
     if (e.aligned) e.split = edge.parts(0) ? 0 : 1;
   }
   return e;
 }
+
+// The outermost nodes leave this share of a cell beyond them, on each side.
+constexpr double kUnseen = 0.026;
 
 class Integrator {
  public:
@@ -109,7 +114,8 @@ class Integrator {
     e.depth = depth;
     if (e.value == 0) e.split = depth % 2;
     heed_points(e);
-    if (e.value == 0) e.error = std::max(e.error, e.cell.doubt);
+    // Next to an edge, or far from all pilot points, agreeing nodes prove little.
+    if (e.value == 0 || e.cell.beside_edge) e.error = std::max(e.error, e.cell.doubt);
     result_.evaluations += 17;
     count_error(e, 1);
     queue_.push(e);
@@ -131,7 +137,8 @@ class Integrator {
       const auto cut = std::partition(at(low.first), at(low.last),
                                       [&](const Point2& p) { return p[d] < middle; });
       low.last = high.first = static_cast<std::size_t>(cut - points_.begin());
-      low.doubt = high.doubt = worst.cell.doubt / 8;
+      divide_doubt(worst, low);
+      divide_doubt(worst, high);
       add(low, worst.depth + 1);
       add(high, worst.depth + 1);
     }
@@ -152,6 +159,15 @@ class Integrator {
   }
 
  private:
+  static void divide_doubt(const Estimate& parent, Cell& child) {
+    child.doubt = parent.cell.doubt / 8;
+    child.beside_edge = parent.cut_off > 0;
+    if (!child.beside_edge) return;
+    const double area =
+        (child.box.high[0] - child.box.low[0]) * (child.box.high[1] - child.box.low[1]);
+    child.doubt = std::max(child.doubt, kUnseen * area * parent.cut_off);
+  }
+
   void count_error(const Estimate& e, int sign) {
     if (e.aligned) {
       aligned_ += sign * e.error;
@@ -162,7 +178,7 @@ class Integrator {
   }
 
   double error() const {
-    return aligned_ + 4 * std::sqrt(std::max(0.0, sum_squares_)) + 0.1 * sum_;
+    return aligned_ + 2 * std::sqrt(std::max(0.0, sum_squares_)) + 0.05 * sum_;
   }
 
   /// Raises the error of a cell that shows improbably little for its points: with λ expected, c

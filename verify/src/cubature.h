@@ -23,9 +23,11 @@ struct Cell {
   /// a thin support.
   std::size_t first = 0, last = 0;
 
-  /// What may hide here although all nodes show 0: the edge of the support runs nearby, and the
-  /// nodes leave out a fortieth of the cell at each side. Counts as error where the rule gives 0.
+  /// What may hide here although all nodes agree: the edge of the support runs nearby, and the
+  /// nodes leave out a fortieth of the cell at each side. Counts as error where the rule gives 0
+  /// and, if `beside_edge`, also where it does not.
   double doubt = 0;
+  bool beside_edge = false;
 };
 
 struct CubatureResult {
@@ -33,8 +35,8 @@ struct CubatureResult {
   std::vector<double> error;  ///< per bin, sum of the cells' estimates: far above the true error
   double total = 0;
 
-  /// Of `total`: 4 √Σe² + 0.1 Σe over the cells. Where the integrand is smooth the true error is
-  /// far below a tenth of the rule's estimate e; at edges of the support it is about e with random
+  /// Of `total`: 2 √Σe² + Σe/20 over the cells. Where the integrand is smooth the true error is
+  /// far below a twentieth of the rule's estimate e; at edges of the support it is about e with random
   /// sign.
   double total_error = 0;
   std::uint64_t evaluations = 0;

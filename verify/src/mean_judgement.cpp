@@ -15,9 +15,9 @@ namespace {
 constexpr std::uint64_t kMinimumSamples = 1'000;
 constexpr std::uint64_t kEnoughZerosToPass = 20'000;
 constexpr std::uint64_t kEnoughZerosToFail = 1u << 20;
-// Reached by a Bernoulli estimator after 400 hits; see docs/statistics.md for what it guarantees.
-constexpr double kSkewnessLimit = 0.05;
-constexpr double kShareLimit = 0.05;
+// Reached by a Bernoulli estimator after 100 hits; see docs/statistics.md for what it guarantees.
+constexpr double kSkewnessLimit = 0.1;
+constexpr double kShareLimit = 0.15;
 // A tail index of 2 or less means infinite variance.
 constexpr double kTailLimit = 2;
 
@@ -52,11 +52,11 @@ std::string guard(const Evidence& e) {
   }
   if (!(std::abs(e.skewness) <= kSkewnessLimit)) {
     return "the estimate is still skewed (" + number(e.skewness) +
-           ", limit 0.05): too few samples carry the sum";
+           ", limit 0.1): too few samples carry the sum";
   }
   if (!(e.largest_share <= kShareLimit)) {
     return "one sample carries " + number(100 * e.largest_share) +
-           " % of the squared deviations (limit 5 %)";
+           " % of the squared deviations (limit 15 %)";
   }
   return {};
 }

@@ -70,7 +70,7 @@ struct MeanOptions {
 ///
 /// Skewed samples: statistics are corrected for skewness (Hall's transformation) and the less
 /// extreme of the corrected and the plain one counts. No verdict while the skewness of the estimate
-/// exceeds 0.05, one sample carries more than 5 % of the squared deviations, or fewer than 1,000
+/// exceeds 0.1, one sample carries more than 15 % of the squared deviations, or fewer than 1,000
 /// samples are in. No pass while the tail looks so heavy that the variance is infinite. Where an
 /// exact variance is given it decides instead: no verdict while the samples show less than half or
 /// more than twice of it.

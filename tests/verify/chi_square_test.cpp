@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <plumbline/verify/chi_square.h>
+
+namespace plumbline::verify {
+namespace {
+
+using tests::expect_verdict;
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+/// A vector class as another project has it.
+struct Direction {
+  float x, y, z;
+};
+
+/// A vector class that knows its components by index only.
+class Indexed {
+ public:
+  double operator[](int i) const { return v_[i]; }
+  double& operator[](int i) { return v_[i]; }
+
+ private:
+  double v_[3] = {0, 0, 0};
+};
+
+std::optional<Direction> cosine(float u, float v) {
+  const float radius = std::sqrt(u), phi = 2 * kPi * v;
+  return Direction{radius * std::cos(phi), radius * std::sin(phi), std::sqrt(1 - u)};
+}
+
+float cosine_pdf(const Direction& w) { return w.z > 0 ? w.z / kPi : 0; }
+
+ChiSquareOptions options(const char* subject, Verdict expected = Verdict::pass) {
+  ChiSquareOptions o;
+  o.subject = subject;
+  o.expected = expected;
+  o.seed = tests::check_seed(subject);
+  return o;
+}
+
+TEST(ChiSquare, PassesACorrectPair) {
+  const CheckResult r = check_chi_square<Direction>(options("chi2/cosine"), cosine_pdf, cosine);
+  expect_verdict(r);
+  EXPECT_LE(r.bound, r.tolerance);
+}
+
+TEST(ChiSquare, TakesAnyVectorType) {
+  expect_verdict(check_chi_square<Indexed>(
+      options("chi2/indexed vector"),
+      [](const Indexed& w) { return w[2] > 0 ? w[2] / std::numbers::pi : 0.0; },
+      [](double u, double v) -> std::optional<Indexed> {
+        Indexed w;
+        w[0] = std::sqrt(u) * std::cos(2 * std::numbers::pi * v);
+        w[1] = std::sqrt(u) * std::sin(2 * std::numbers::pi * v);
+        w[2] = std::sqrt(1 - u);
+        return w;
+      }));
+}
+
+TEST(ChiSquare, FailsAPdfOfAnotherShape) {
+  // 2 % of the mass moved from the pole to the rim: invisible to the integral.
+  expect_verdict(check_chi_square<Direction>(
+      options("chi2/tilted pdf", Verdict::fail),
+      [](const Direction& w) { return cosine_pdf(w) * (1 + 0.1f * (w.z - 2.0f / 3)); }, cosine));
+}
+
+TEST(ChiSquare, FailsAPdfWithAWrongConstant) {
+  const CheckResult r = check_chi_square<Direction>(
+      options("chi2/forgotten pi", Verdict::fail),
+      [](const Direction& w) { return w.z > 0 ? w.z : 0.0f; }, cosine);
+  expect_verdict(r);
+  EXPECT_NE(r.reason.find("integrates to 3.14"), std::string::npos) << r.reason;
+}
+
+TEST(ChiSquare, FailsOnTheFirstSamplesWhereThePdfIsZero) {
+  // One sample in 20,000 goes below the horizon: 5 of the first 100,000.
+  const CheckResult r =
+      check_chi_square<Direction>(options("chi2/stray samples", Verdict::fail), cosine_pdf,
+                                  [](float u, float v) -> std::optional<Direction> {
+                                    auto w = cosine(u, v);
+                                    if (v > 1 - 1 / 20'000.0f) w->z = -w->z;
+                                    return w;
+                                  });
+  expect_verdict(r);
+  EXPECT_EQ(r.samples, 100'000u);
+  EXPECT_NE(r.reason.find("pdf is 0"), std::string::npos) << r.reason;
+}
+
+TEST(ChiSquare, CountsRejectedSamples) {
+  const auto rejecting = [](float u, float v) -> std::optional<Direction> {
+    // The rim, a tenth of all samples, is rejected.
+    return u < 0.9f ? cosine(u, v) : std::nullopt;
+  };
+  const auto inside = [](const Direction& w) { return w.z * w.z > 0.1f ? cosine_pdf(w) : 0.0f; };
+  expect_verdict(check_chi_square<Direction>(options("chi2/rejected"), inside, rejecting));
+  expect_verdict(check_chi_square<Direction>(options("chi2/rejected but in the pdf", Verdict::fail),
+                                             cosine_pdf, rejecting));
+}
+
+TEST(ChiSquare, NeverPassesADensityThatIsNotFinite) {
+  expect_verdict(check_chi_square<Direction>(
+      options("chi2/NaN in the pdf", Verdict::fail),
+      [](const Direction& w) { return w.x > 0.999f ? std::nanf("") : cosine_pdf(w); }, cosine));
+}
+
+TEST(ChiSquare, IsInconclusiveWithTooFewSamples) {
+  ChiSquareOptions o = options("chi2/too few samples", Verdict::inconclusive);
+  o.first_look = o.samples = 20'000;
+  expect_verdict(check_chi_square<Direction>(o, cosine_pdf, cosine));
+}
+
+TEST(ChiSquare, SeesALobeWeightOfFiftyOnePercent) {
+  // Half of the samples in a narrow lobe about z, half cosine; the pdf says 0.51 and 0.49.
+  const float k = 1e4f;
+  const auto lobe_pdf = [k](const Direction& w) {
+    const float h = (w.x * w.x + w.y * w.y) / (1 + std::abs(w.z));
+    return w.z > 0 ? k / (2 * kPi) * std::exp(-k * h) : 0.0f;
+  };
+  const auto pair = [&](const char* subject, float weight, Verdict expected) {
+    return check_chi_square<Direction>(
+        options(subject, expected),
+        [&](const Direction& w) { return weight * lobe_pdf(w) + (1 - weight) * cosine_pdf(w); },
+        [k](float u, float v) -> std::optional<Direction> {
+          if (v < 0.5f) return cosine(u, 2 * v);
+          const float h = -std::log1p(-u) / k, phi = 2 * kPi * (2 * v - 1);
+          const float radius = std::sqrt(h * (2 - h));
+          return Direction{radius * std::cos(phi), radius * std::sin(phi), 1 - h};
+        });
+  };
+  expect_verdict(pair("chi2/lobe weight 0.50", 0.50f, Verdict::pass));
+  expect_verdict(pair("chi2/lobe weight 0.51", 0.51f, Verdict::fail));
+}
+
+}  // namespace
+}  // namespace plumbline::verify

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include <plumbline/verify/variance_ratio.h>
+
+#include "samplers.h"
+
+namespace plumbline::verify {
+namespace {
+
+using tests::expect_verdict;
+using tests::sampler;
+
+std::vector<Moments> batches(std::uint64_t seed, auto distribution, int count = 64,
+                             std::uint64_t size = 2000) {
+  const MomentSampler draw = sampler(seed, distribution);
+  std::vector<Moments> result;
+  for (int i = 0; i < count; ++i) result.push_back(draw(0, size));
+  return result;
+}
+
+VarianceRatioOptions options(const char* subject) {
+  VarianceRatioOptions o;
+  o.subject = subject;
+  o.seed = tests::check_seed(subject);
+  return o;
+}
+
+/// Mean 1, variance (scale)².
+auto scaled(double scale) {
+  return [scale](Random& r) { return 1 + scale * (tests::Exponential{}(r)-1); };
+}
+
+TEST(VarianceRatio, KeepsATrueClaim) {
+  VarianceRatioOptions o = options("ratio/true claim");
+  o.at_least = 3;
+  const CheckResult r =
+      check_variance_ratio(o, batches(o.seed, scaled(2)), batches(o.seed + 1, scaled(1)));
+  expect_verdict(r);
+  EXPECT_LE(r.interval_low, 4);
+  EXPECT_GE(r.interval_high, 4);
+}
+
+TEST(VarianceRatio, BreaksAFalseClaim) {
+  VarianceRatioOptions o = options("ratio/false claim");
+  o.at_least = 6;
+  o.expected = Verdict::fail;
+  expect_verdict(
+      check_variance_ratio(o, batches(o.seed, scaled(2)), batches(o.seed + 1, scaled(1))));
+  o = options("ratio/false claim from above");
+  o.at_most = 2;
+  o.expected = Verdict::fail;
+  expect_verdict(
+      check_variance_ratio(o, batches(o.seed, scaled(2)), batches(o.seed + 1, scaled(1))));
+}
+
+TEST(VarianceRatio, SaysSoWhenItCannotTell) {
+  VarianceRatioOptions o = options("ratio/straddles");
+  o.at_least = 1;
+  o.expected = Verdict::inconclusive;
+  expect_verdict(
+      check_variance_ratio(o, batches(o.seed, scaled(1)), batches(o.seed + 1, scaled(1))));
+}
+
+TEST(VarianceRatio, RefusesToJudgeATail) {
+  VarianceRatioOptions o = options("ratio/infinite variance");
+  o.at_least = 1;
+  o.expected = Verdict::inconclusive;
+  expect_verdict(check_variance_ratio(o, batches(o.seed, tests::Pareto{1.2}),
+                                      batches(o.seed + 1, scaled(0.1))));
+}
+
+TEST(VarianceRatio, SharedSeedsNarrowTheInterval) {
+  VarianceRatioOptions o = options("ratio/paired");
+  const auto a = batches(o.seed, scaled(1.1));
+  const CheckResult paired = check_variance_ratio(o, a, batches(o.seed, scaled(1)));
+  const CheckResult apart = check_variance_ratio(o, a, batches(o.seed + 1, scaled(1)));
+  EXPECT_LT(paired.interval_high - paired.interval_low,
+            0.2 * (apart.interval_high - apart.interval_low));
+  EXPECT_NEAR(paired.estimate, 1.21, 1e-9);
+}
+
+TEST(VarianceRatio, OfTheSameRunIsExactlyOne) {
+  VarianceRatioOptions o = options("ratio/the same run");
+  o.at_least = o.at_most = 1;
+  const auto a = batches(o.seed, scaled(1));
+  const CheckResult r = check_variance_ratio(o, a, a);
+  expect_verdict(r);
+  EXPECT_EQ(r.estimate, 1);
+}
+
+/// Share of intervals that hold the true ratio 1.
+double coverage(auto distribution, int runs) {
+  int covered = 0;
+  for (int run = 0; run < runs; ++run) {
+    const auto seed = static_cast<std::uint64_t>(2 * run);
+    VarianceRatioOptions o;
+    o.budget.pass_confidence = 0.95;
+    const CheckResult r = check_variance_ratio(o, batches(seed, distribution, 32, 500),
+                                               batches(seed + 1, distribution, 32, 500));
+    covered += r.interval_low <= 1 && 1 <= r.interval_high ? 1 : 0;
+  }
+  return static_cast<double>(covered) / runs;
+}
+
+TEST(VarianceRatio, IntervalsCoverTheTruthForHeavyTailsToo) {
+  // 400 runs at 95 %: 380 expected, standard deviation 4.4; below 360 has a chance of 1e-5.
+  EXPECT_GE(coverage(tests::Exponential{}, 400), 0.9);
+  EXPECT_GE(coverage(tests::Lognormal{1.0}, 400), 0.9);
+  EXPECT_GE(coverage(tests::Pareto{4.5}, 400), 0.9);
+}
+
+TEST(VarianceRatio, RefusesTooFewBatches) {
+  const auto a = batches(1, scaled(1), 15);
+  EXPECT_THROW(check_variance_ratio(options("r"), a, a), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace plumbline::verify
