@@ -27,7 +27,7 @@ inline constexpr std::array<float, 4> kBandEdges{700, 590, 490, 400};
 
 /// Optically no thinner than both of its neighbours: between denser ones light would tunnel, which
 /// this is not a model of.
-struct Film {
+struct FilmLayer {
   float thickness;  ///< [nm], times the index outside; ≥ 0
   float eta;        ///< index over the index outside
 };
@@ -95,7 +95,7 @@ struct FilmView {
   T eta2;
 
   /// @param cos_o  outside
-  FilmView(const Film& film, const T& cos_o, const T& film_cosine)
+  FilmView(const FilmLayer& film, const T& cos_o, const T& film_cosine)
       : cosine(film_cosine),
         top_s(step<T>({cos_o, T(0)}, {film_cosine, T(0)})),
         top_p(step<T>({T(sqr(T(film.eta)) * cos_o), T(0)}, {film_cosine, T(0)})),
@@ -117,7 +117,7 @@ struct FilmView {
 
 /// In the place of ConductorFresnel.
 struct FilmOnConductor {
-  Film film;
+  FilmLayer film;
   ConductorFresnel base;
 
   /// @param cos_o  in [0, 1]
@@ -139,7 +139,7 @@ struct FilmOnConductor {
 
 /// In the place of BareInterface.
 struct FilmOnDielectric {
-  Film film;
+  FilmLayer film;
   float eta;  ///< of the base over the outside
 
   /// @param cos_o         on the side of wo, ≥ 0

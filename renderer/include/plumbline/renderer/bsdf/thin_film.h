@@ -16,7 +16,7 @@ namespace plumbline::renderer {
 /// base together. Without thickness it is the bare base.
 struct ThinFilm {
   std::variant<SmoothConductor, GgxConductor, SmoothDielectric, GgxDielectric> base;
-  Film film;
+  FilmLayer film;
 
   BsdfParts parts() const {
     return std::visit([](const auto& b) { return b.parts(); }, base);
