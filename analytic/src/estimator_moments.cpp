@@ -54,14 +54,15 @@ Moments draw_moments(const Integral1d& integral, const std::vector<Source>& sour
     return sum;
   };
   const double mean = moment([](double g) { return g; }, 1e-16 * integral.value).value;
-  // g − mean is a few ulp of the integral off: where g hardly varies, its powers are made of that.
-  const auto central = [&](int k) {
-    return moment([=](double g) { return std::pow(g - mean, k); },
-                  1e-17 * std::pow(integral.value, k));
+  const auto central = [&](int k, double noise) {
+    return moment([=](double g) { return std::pow(g - mean, k); }, noise);
   };
-  const Quadrature variance = central(2);
-  return {mean,          variance.value, central(3).value, central(4).value, central(6).value,
-          variance.error};
+  // g − mean is a few ulp of the integral off: where g hardly varies, its powers are made of that.
+  const Quadrature variance = central(2, 1e-17 * integral.value * integral.value);
+  // The higher moments only say how many samples a check needs.
+  const double sd = std::sqrt(variance.value);
+  const auto higher = [&](int k) { return central(k, 1e-8 * std::pow(sd, k)).value; };
+  return {mean, variance.value, higher(3), higher(4), higher(6), variance.error};
 }
 
 Moments infinite(double mean) { return {mean, kInfinity, kInfinity, kInfinity, kInfinity, 0}; }

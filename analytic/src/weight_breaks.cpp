@@ -24,7 +24,8 @@ void add_roots(const std::function<double(double)>& f, double low, double high,
   for (int i = 1; i <= kGrid; ++i) {
     const double b = i == kGrid ? high - margin : low + (high - low) * i / kGrid;
     const double fb = f(b);
-    if (fb == 0) roots.push_back(b);
+    // Zero on a whole stretch, for equal densities, is no crossing.
+    if (fb == 0 && fa != 0) roots.push_back(b);
     if (fa * fb < 0) {
       std::uintmax_t iterations = 200;
       const auto bracket = boost::math::tools::toms748_solve(

@@ -267,13 +267,16 @@ function addRayCosts() {
 // Figures
 
 function figureDatasets(figure) {
-  return figure.series.map((series, index) => {
+  const curves = [...new Set(figure.series.map((series) => series.name))];
+  return figure.series.map((series, position) => {
+    const index = curves.indexOf(series.name);
     const name = kStrategies.find((s) => series.name === s || series.name.startsWith(`${s},`));
     const color = cssColor(name ?? kOthers[index % kOthers.length]);
     const measured = series.style === 'points';
     return {
       label: series.name,
       curve: series.name,
+      unlisted: figure.series.findIndex((s) => s.name === series.name) !== position,
       borderColor: color,
       backgroundColor: color,
       showLine: true,

@@ -52,7 +52,7 @@ class Cases {
  public:
   explicit Cases(const Integral1d& integral) : integral_(integral), problem_(integral) {}
 
-  void add(std::string strategy, const analytic::Moments& exact, double samples, bool featured,
+  void add(std::string strategy, const analytic::Moments& exact, double samples,
            std::function<double(const Problem&, Uniform<double>&)> draw) {
     EstimatorCase c;
     c.integral = integral_.name;
@@ -60,7 +60,6 @@ class Cases {
     c.value = integral_.value;
     c.exact = exact;
     c.samples = samples;
-    c.featured = featured;
     c.draw = [problem = problem_, draw = std::move(draw)](verify::Random& random) {
       Uniform<double> uniform(random);
       return draw(problem, uniform);
@@ -68,27 +67,28 @@ class Cases {
     cases_.push_back(std::move(c));
   }
 
-  void add_multi_sample(const Rule& rule, const std::vector<int>& counts, bool featured) {
+  /// Shows the case added last in the figure of errors.
+  void feature(std::string short_name) { cases_.back().featured = std::move(short_name); }
+
+  void add_multi_sample(const Rule& rule, const std::vector<int>& counts) {
     add("multi-sample " + rule.name + ", counts" + listed(counts),
-        multi_sample_moments(integral_, rule.oracle, counts), total(counts), featured,
+        multi_sample_moments(integral_, rule.oracle, counts), total(counts),
         [rule, n = Numbers(counts.begin(), counts.end())](const Problem& p, Uniform<double>& u) {
           return renderer::multi_sample(p, rule.weighting, std::span<const double>(n), u);
         });
   }
 
-  void add_one_sample(const Rule& rule, const std::string& name, const Numbers& selection,
-                      bool featured) {
+  void add_one_sample(const Rule& rule, const std::string& name, const Numbers& selection) {
     add("one-sample " + rule.name + ", " + name,
-        one_sample_moments(integral_, rule.oracle, selection), 1, featured,
+        one_sample_moments(integral_, rule.oracle, selection), 1,
         [rule, selection](const Problem& p, Uniform<double>& u) {
           return renderer::one_sample(p, rule.weighting, std::span<const double>(selection), u);
         });
   }
 
-  void add_optimal(const std::string& name, const std::vector<int>& counts, const Numbers& alpha,
-                   bool featured) {
+  void add_optimal(const std::string& name, const std::vector<int>& counts, const Numbers& alpha) {
     add("optimal weights, " + name + ", counts" + listed(counts),
-        control_variate_moments(integral_, counts, alpha), total(counts), featured,
+        control_variate_moments(integral_, counts, alpha), total(counts),
         [n = Numbers(counts.begin(), counts.end()), alpha](const Problem& p, Uniform<double>& u) {
           return renderer::optimal(p, std::span<const double>(n), std::span<const double>(alpha),
                                    u);
@@ -137,42 +137,47 @@ std::vector<EstimatorCase> estimator_cases(const Integral1d& integral) {
   const auto m = static_cast<double>(count);
   Cases cases(integral);
   for (std::size_t i = 0; i < count; ++i) {
-    cases.add("technique " + std::to_string(i + 1) + " alone", single_moments(integral, i), 1, true,
+    const std::string number = std::to_string(i + 1);
+    cases.add("technique " + number + " alone", single_moments(integral, i), 1,
               [i](const Problem& p, Uniform<double>& u) { return renderer::single(p, i, u); });
+    cases.feature(std::string("p").append(number).append(" alone"));
   }
-  cases.add("naive average", naive_average_moments(integral), m, true,
+  cases.add("naive average", naive_average_moments(integral), m,
             [](const Problem& p, Uniform<double>& u) { return renderer::naive_average(p, u); });
-  cases.add("plain sum", plain_sum_moments(integral), m, false,
+  cases.feature("naive average");
+  cases.add("plain sum", plain_sum_moments(integral), m,
             [](const Problem& p, Uniform<double>& u) { return renderer::plain_sum(p, u); });
 
   const std::vector<int> ones(count, 1);
   std::vector<int> uneven;
   for (std::size_t i = 0; i < count; ++i) uneven.push_back(i == 0 ? 3 : static_cast<int>(i));
   for (const Rule& rule : rules()) {
-    cases.add_multi_sample(rule, ones, rule.name == "balance" || rule.name == "power 2");
-    cases.add_multi_sample(rule, uneven, false);
+    cases.add_multi_sample(rule, ones);
+    if (rule.name == "balance" || rule.name == "power 2") cases.feature(rule.name);
+    cases.add_multi_sample(rule, uneven);
   }
 
   const Numbers equal(count, 1 / m);
   Numbers skewed;
   for (const int n : uneven) skewed.push_back(n / static_cast<double>(total(uneven)));
-  cases.add_one_sample(rules()[0], "equal chances", equal, true);
-  cases.add_one_sample(rules()[1], "equal chances", equal, false);
-  cases.add_one_sample(rules()[0], "unequal chances", skewed, false);
-  cases.add_one_sample(rules()[4], "unequal chances", skewed, false);
-  cases.add("coin flip", mixture_moments(integral, equal), 1, false,
+  cases.add_one_sample(rules()[0], "equal chances", equal);
+  cases.feature("one-sample balance");
+  cases.add_one_sample(rules()[1], "equal chances", equal);
+  cases.add_one_sample(rules()[0], "unequal chances", skewed);
+  cases.add_one_sample(rules()[4], "unequal chances", skewed);
+  cases.add("coin flip", mixture_moments(integral, equal), 1,
             [](const Problem& p, Uniform<double>& u) { return renderer::coin_flip(p, u); });
   // The mean of f/p̄ over fixed counts is the balance heuristic with these counts, written
   // differently.
   cases.add("deterministic mixture, counts" + listed(uneven),
             multi_sample_moments(integral, {WeightRule::Kind::balance, 0}, uneven), total(uneven),
-            false,
             [n = Numbers(uneven.begin(), uneven.end())](const Problem& p, Uniform<double>& u) {
               return renderer::deterministic_mixture(p, std::span<const double>(n), u);
             });
-  cases.add_optimal("by quadrature", ones, optimal_alpha(integral, ones), true);
-  cases.add_optimal("by quadrature", uneven, optimal_alpha(integral, uneven), false);
-  cases.add_optimal("from other samples", ones, sampled_alpha(integral, ones), false);
+  cases.add_optimal("by quadrature", ones, optimal_alpha(integral, ones));
+  cases.feature("optimal weights");
+  cases.add_optimal("by quadrature", uneven, optimal_alpha(integral, uneven));
+  cases.add_optimal("from other samples", ones, sampled_alpha(integral, ones));
   return cases.take();
 }
 

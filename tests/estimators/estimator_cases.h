@@ -16,8 +16,8 @@ struct EstimatorCase {
   std::string strategy;  ///< "multi-sample power 2, counts 1 1"
   double value = 0;      ///< of the integral; not always the estimator's mean
   analytic::Moments exact;
-  double samples = 1;     ///< drawn for one estimate
-  bool featured = false;  ///< shown in the figure of error against N
+  double samples = 1;    ///< drawn for one estimate
+  std::string featured;  ///< its short name in the figure of error against N; empty if not there
   std::function<double(verify::Random&)> draw;
 
   std::string subject() const { return integral + "/" + strategy; }

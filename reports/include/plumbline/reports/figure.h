@@ -19,6 +19,8 @@ enum class SeriesStyle {
   dashed   ///< a prediction to compare with
 };
 
+/// Series of one name (measured points and the prediction for them) share a colour and an entry of
+/// the legend, that of the first.
 struct FigureSeries {
   std::string name;
   SeriesStyle style = SeriesStyle::points;
