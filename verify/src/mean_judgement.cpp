@@ -33,8 +33,10 @@ double hall_inverse(double z, double skewness) {
   return 3 * (std::cbrt(1 + g * (z - g / 6)) - 1) / g;
 }
 
-bool is_constant(const Evidence& e, double allowance) {
-  return e.standard_error == 0 || e.largest - e.smallest <= allowance;
+/// Samples that differ by less than the tolerance: no normal approximation is needed, or trusted,
+/// to bound their mean. Rounding noise with rare larger errors is of this kind.
+bool is_nearly_constant(const Evidence& e, double tolerance) {
+  return e.standard_error == 0 || e.largest - e.smallest <= tolerance;
 }
 
 bool is_all_zero(const Evidence& e) { return e.smallest == 0 && e.largest == 0; }
@@ -114,35 +116,44 @@ bool judge_improbable(const MeanQuestion& q, const Evidence& e, double excess, C
   return true;
 }
 
-void judge_constant(const MeanQuestion& q, const Evidence& e, CheckResult& r) {
-  r.leaned_on = "all samples equal";
-  const double spread = std::isfinite(e.largest - e.smallest) ? e.largest - e.smallest : 0.0;
+/// How far the mean of n samples within a range may be from its expectation at a level, one-sided.
+/// @source Hoeffding 1963, Theorem 2
+double hoeffding(double range, std::uint64_t n, double level) {
+  return range * std::sqrt(std::log(1 / level) / (2 * static_cast<double>(n)));
+}
+
+void judge_nearly_constant(const MeanQuestion& q, const Evidence& e, CheckResult& r) {
+  r.leaned_on = "nearly equal samples";
+  const double range = std::isfinite(e.largest - e.smallest) ? e.largest - e.smallest : 0.0;
   const double distance = std::abs(e.estimate - q.reference);
-  const double excess = distance - spread - q.rounding_allowance;
-  if (judge_improbable(q, e, excess, r)) return;
+  const double excess = distance - q.rounding_allowance;
+  if (judge_improbable(q, e, excess - range, r)) return;
   if (is_all_zero(e)) {
     judge_zeros(q, e, r);
     return;
   }
-  const double hidden = hidden_bias(e.estimate, e.samples, q.pass_level);
-  r.bound = distance + spread + hidden;
-  r.interval_low = e.estimate - spread - hidden;
-  r.interval_high = e.estimate + spread + hidden;
-  r.detectable =
-      q.rounding_allowance + spread + hidden_bias(e.estimate, q.max_samples, q.last_fail_level);
+  const auto doubt = [&](std::uint64_t n, double level) {
+    return hoeffding(range, n, level) + hidden_bias(e.estimate, n, level);
+  };
+  const double half_width = doubt(e.samples, q.pass_level);
+  r.bound = distance + half_width;
+  r.interval_low = e.estimate - half_width;
+  r.interval_high = e.estimate + half_width;
+  r.detectable = q.rounding_allowance + doubt(q.max_samples, q.last_fail_level);
   r.p_value =
       excess > 0
           ? std::exp(-static_cast<double>(e.samples) * std::min(1.0, excess / std::abs(e.estimate)))
           : 1.0;
   if (e.samples < kMinimumSamples) {
     r.reason = "only " + number(e.samples) + " samples; at least 1000 are needed";
-  } else if (excess > hidden_bias(e.estimate, e.samples, q.fail_level)) {
+  } else if (excess > doubt(e.samples, q.fail_level)) {
     r.verdict = Verdict::fail;
-    r.reason = "all samples equal " + number(e.estimate) + ", the answer is " + number(q.reference);
-  } else if (excess <= 0 && r.bound <= q.tolerance) {
+    r.reason =
+        "all samples are close to " + number(e.estimate) + ", the answer is " + number(q.reference);
+  } else if (excess <= hoeffding(range, e.samples, q.pass_level) && r.bound <= q.tolerance) {
     r.verdict = Verdict::pass;
   } else {
-    r.reason = "all samples equal " + number(e.estimate) + "; " + number(e.samples) +
+    r.reason = "all samples are close to " + number(e.estimate) + "; " + number(e.samples) +
                " are too few to exclude what they have not shown";
   }
 }
@@ -220,8 +231,8 @@ CheckResult judge_mean(const MeanQuestion& q, const Evidence& seen) {
     return r;
   }
   const bool exact = std::isfinite(q.exact_variance);
-  if (is_constant(seen, q.rounding_allowance)) {
-    judge_constant(q, seen, r);
+  if (is_nearly_constant(seen, q.tolerance)) {
+    judge_nearly_constant(q, seen, r);
     return r;
   }
   const Evidence e = exact ? with_exact_variance(seen, q.exact_variance) : seen;

@@ -75,11 +75,12 @@ struct MeanOptions {
 /// exact variance is given it decides instead: no verdict while the samples show less than half or
 /// more than twice of it.
 ///
-/// Samples that are all equal (to within the rounding allowance) have no error to estimate. What
-/// none of n samples has shown has a probability of at most ln(1/level)/n and is taken to deviate
-/// from their common value c by at most |c|: that bounds the bias for a pass, and is what a fail
-/// must exceed. All zeros may be a rare event instead: they pass from 20,000 samples on and fail
-/// from 2^20 on, or, with an exact variance, as soon as they are too improbable under it.
+/// Samples that differ by less than the tolerance need no normal approximation: their range bounds
+/// the error of their mean (Hoeffding). What none of n samples has shown has a probability of at
+/// most ln(1/level)/n and is taken to deviate from the mean m by at most |m|; both bound the bias
+/// for a pass, and are what a fail must exceed. All zeros may be a rare event instead: they pass
+/// from 20,000 samples on and fail from 2^20 on, or, with an exact variance, as soon as they are
+/// too improbable under it.
 ///
 /// @source Hall 1992 (J. R. Stat. Soc. B 54:1), transformation g of Section 2 · two one-sided
 /// tests:
