@@ -19,15 +19,13 @@ using renderer::Weighting;
 
 using Densities = std::vector<TechniqueDensity<float>>;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr double kUlpOfOne = std::numeric_limits<float>::epsilon();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr auto kUlpOfOne = static_cast<double>(std::numeric_limits<float>::epsilon());
 
 const std::vector<Weighting> kWeightings = {
-    Heuristic::balance,       Heuristic::power,
-    {Heuristic::power, 1.5},  {Heuristic::power, 9},
-    {Heuristic::power, 0.5},  {Heuristic::power, static_cast<double>(kInfinity)},
-    {Heuristic::cutoff, 0.1}, {Heuristic::cutoff, 0},
-    Heuristic::maximum};
+    Heuristic::balance,       Heuristic::power,        {Heuristic::power, 1.5},
+    {Heuristic::power, 9},    {Heuristic::power, 0.5}, {Heuristic::power, kInfinity},
+    {Heuristic::cutoff, 0.1}, {Heuristic::cutoff, 0},  Heuristic::maximum};
 
 /// Zero, both ends of float, denormals' neighbourhood, and either side of where squares overflow
 /// (1.8e19) and vanish (2e-23).
@@ -42,8 +40,8 @@ double worst_in_ulp(const Densities& densities, WeightOf weight_of) {
   for (std::size_t i = 0; i < densities.size(); ++i) {
     any = any || densities[i].pdf > 0;
     const float w = weight_of(densities, i);
-    if (!(w >= 0 && w <= 1)) return static_cast<double>(kInfinity);
-    if (densities[i].pdf == 0 && w != 0) return static_cast<double>(kInfinity);
+    if (!(w >= 0 && w <= 1)) return kInfinity;
+    if (densities[i].pdf == 0 && w != 0) return kInfinity;
     sum += static_cast<double>(w);
   }
   return std::abs(sum - (any ? 1 : 0)) / kUlpOfOne;
@@ -64,7 +62,7 @@ void for_all_choices(std::size_t most, Densities& chosen, std::size_t first, F& 
 /// Largest excess over M ulp that any choice of values gives; `counts` sets the counts first.
 template <class WeightOf, class SetCounts>
 double worst_excess(WeightOf weight_of, SetCounts set_counts) {
-  double worst = -static_cast<double>(kInfinity);
+  double worst = -kInfinity;
   auto check = [&](const Densities& choice) {
     Densities densities = choice;
     set_counts(densities);
@@ -123,7 +121,7 @@ TEST(MisWeightNumerics, AgreeWithLongDouble) {
     for (const float b : kValues) {
       if (a == 0 && b == 0) continue;
       const Densities densities = {{a}, {b}};
-      const long double la = a, lb = b;
+      const auto la = static_cast<long double>(a), lb = static_cast<long double>(b);
       const auto exact = static_cast<double>(la * la / (la * la + lb * lb));
       EXPECT_NEAR(heuristic(Heuristic::power)(densities, 0), exact, kUlpOfOne) << a << ' ' << b;
     }
