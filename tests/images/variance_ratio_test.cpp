@@ -74,10 +74,14 @@ TEST(VarianceRatio, OnASmallLightMisBeatsBsdfSamplingByFarAndKeepsUpWithLightSam
   expect_ratio(scene, Strategy::light, Strategy::mis, 0.5, verify::kNotApplicable);
 }
 
-TEST(VarianceRatio, OnALargeLightMisBeatsLightSamplingAndKeepsUpWithBsdfSampling) {
+TEST(VarianceRatio, OnALargeLightMisBeatsLightSamplingAndItsPriceOverBsdfSamplingIsMeasured) {
   const BenchScene scene("large_light");
   expect_ratio(scene, Strategy::light, Strategy::mis, 1.5, verify::kNotApplicable);
-  expect_ratio(scene, Strategy::bsdf, Strategy::mis, 0.5, verify::kNotApplicable);
+  // No claim: BSDF sampling is nearly perfect here, and next to a perfect technique any weight
+  // given to another one costs (Veach 1997, Theorem 9.2, bounds the difference of the variances,
+  // not their ratio).
+  expect_ratio(scene, Strategy::bsdf, Strategy::mis, verify::kNotApplicable,
+               verify::kNotApplicable);
 }
 
 TEST(VarianceRatio, ClaimThatBsdfSamplingBeatsMisOnASmallLightFails) {

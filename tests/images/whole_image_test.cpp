@@ -59,7 +59,7 @@ TEST(WholeImage, EveryPixelIsTheClosedFormOverItsFootprint) {
   for (const analytic::KnownScene& known : analytic::known_scenes()) {
     const std::string scene(known.name);
     const auto options = options_for(scene + "/image", verify::Verdict::pass);
-    const renderer::Film film = render_scene(scene, 256, options.seed);
+    const renderer::Film film = render_scene(scene, 128, options.seed);
     expect_verdict(check_image(options, green(film), exact(scene)).check);
   }
 }
