@@ -44,10 +44,10 @@ double mean_over_normals(const Roughness& roughness, const Vec3& wo, const Share
   const auto over_azimuth = [&](double v) {
     const double t = 1 - v * v;
     return 2 * v *
-           Quadrature::integrate([&](double phi) { return at(t, phi); }, 0.0, 2 * kPi, 12, 1e-9) /
+           Quadrature::integrate([&](double phi) { return at(t, phi); }, 0.0, 2 * kPi, 10, 1e-7) /
            (2 * kPi);
   };
-  return Quadrature::integrate(over_azimuth, 0.0, 1.0, 12, 1e-8);
+  return Quadrature::integrate(over_azimuth, 0.0, 1.0, 10, 1e-6);
 }
 
 /// ∫ max(0, a + b cosφ) dφ over a turn, b ≥ 0.

@@ -23,7 +23,7 @@ using Share = std::function<double(double)>;
 ///
 /// @param wo           unit, z > 0
 /// @param reflectance  Fresnel's or any other
-/// @return             in [0, 1], to about 1e-8
+/// @return             in [0, 1], to about 1e-6
 /// @source             Walter et al. 2007, Eqs. 20, 14, 34 (Smith's G1 for GGX)
 double ggx_reflection_albedo(const Roughness& roughness, const Vec3& wo, const Share& reflectance);
 
