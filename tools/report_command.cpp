@@ -82,7 +82,7 @@ void print_summary(const reports::Results& results, const reports::Summary& summ
   }
   for (const reports::ReadWarning& warning : results.warnings) {
     fmt::print(stderr, "warning: {}{}: {}\n", warning.file.string(),
-               warning.line == 0 ? "" : ":" + std::to_string(warning.line), warning.what);
+               warning.line == 0 ? std::string() : fmt::format(":{}", warning.line), warning.what);
   }
 }
 

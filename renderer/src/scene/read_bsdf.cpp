@@ -12,7 +12,7 @@ namespace plumbline::renderer {
 
 std::uint32_t BsdfTable::read(const Element& element) {
   element.allow_attributes({"type", "id", "name"});
-  element.type({"diffuse"});
+  element.type();
   element.file().register_id(element);
   Properties properties(element);
   const Rgbd reflectance = properties.rgb("reflectance", {0.5, 0.5, 0.5});

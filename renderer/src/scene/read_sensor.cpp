@@ -12,7 +12,7 @@ constexpr int kMitsubaSampleCount = 4;
 
 int read_sampler(const Element& element) {
   element.allow_attributes({"type", "id", "name"});
-  element.type({"independent"});
+  element.type();
   element.file().register_id(element);
   Properties properties(element);
   const int sample_count = properties.integer("sample_count", kMitsubaSampleCount);
@@ -23,7 +23,7 @@ int read_sampler(const Element& element) {
 
 FilmSize read_film(const Element& element) {
   element.allow_attributes({"type", "id", "name"});
-  element.type({"hdrfilm"});
+  element.type();
   element.file().register_id(element);
   Properties properties(element);
   const FilmSize size{properties.integer("width", 768), properties.integer("height", 576)};
@@ -38,7 +38,7 @@ FilmSize read_film(const Element& element) {
   const std::string wrong = film_size_error(size);
   if (!wrong.empty()) properties.fail("width", wrong);
   filter->allow_attributes({"type", "id", "name"});
-  filter->type({"box"});
+  filter->type();
   filter->file().register_id(*filter);
   Properties(*filter).finish();
   return size;
@@ -79,7 +79,7 @@ std::string film_size_error(const FilmSize& size) {
 
 void read_sensor(const Element& element, std::optional<FilmSize> size, SceneDescription& scene) {
   element.allow_attributes({"type", "id", "name"});
-  element.type({"perspective"});
+  element.type();
   element.file().register_id(element);
   Properties properties(element);
   const double fov = properties.number("fov");
@@ -116,7 +116,7 @@ void read_sensor(const Element& element, std::optional<FilmSize> size, SceneDesc
 
 IntegratorDescription read_integrator(const Element& element) {
   element.allow_attributes({"type", "id", "name"});
-  const std::string type = element.type({"path", "direct"});
+  const std::string type = element.type();
   element.file().register_id(element);
   Properties properties(element);
   IntegratorDescription integrator;

@@ -101,7 +101,7 @@ bool is_in_range(const Vec3d& point) {
 
 void ShapeReader::read(const Element& element) {
   element.allow_attributes({"type", "id", "name"});
-  const std::string type = element.type({"sphere", "rectangle", "disk", "obj"});
+  const std::string type = element.type();
   element.file().register_id(element);
   Properties properties(element);
   const std::optional<Element> bsdf = properties.object("bsdf");

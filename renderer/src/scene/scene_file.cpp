@@ -9,10 +9,22 @@
 
 #include <plumbline/renderer/nearest_name.h>
 #include <plumbline/renderer/scene/description.h>
+#include <plumbline/renderer/scene/load_scene.h>
 
 #include "text_file.h"
 
 namespace plumbline::renderer {
+
+std::vector<std::string> supported_types(std::string_view tag) {
+  static const std::map<std::string_view, std::vector<std::string>> types = {
+      {"bsdf", {"diffuse"}},       {"emitter", {"area", "constant"}},
+      {"film", {"hdrfilm"}},       {"integrator", {"path", "direct"}},
+      {"rfilter", {"box"}},        {"sampler", {"independent"}},
+      {"sensor", {"perspective"}}, {"shape", {"sphere", "rectangle", "disk", "obj"}},
+  };
+  const auto found = types.find(tag);
+  return found == types.end() ? std::vector<std::string>{} : found->second;
+}
 
 std::string Element::text(const char* attribute) const {
   const pugi::xml_attribute found = node_.attribute(attribute);
@@ -32,6 +44,8 @@ std::string Element::type(const std::vector<std::string>& supported) const {
   }
   return value;
 }
+
+std::string Element::type() const { return type(supported_types(tag())); }
 
 void Element::allow_attributes(const std::vector<std::string>& allowed) const {
   for (const pugi::xml_attribute attribute : node_.attributes()) {

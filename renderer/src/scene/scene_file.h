@@ -27,8 +27,9 @@ class Element {
   /// Value of an attribute that must be there, with parameters put in.
   std::string text(const char* attribute) const;
 
-  /// Value of `type`, which must be one of those given.
+  /// Value of `type`, which must be one of those given; without them, of supported_types().
   std::string type(const std::vector<std::string>& supported) const;
+  std::string type() const;
 
   /// Refuses every attribute that is not named here.
   void allow_attributes(const std::vector<std::string>& allowed) const;

@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <plumbline/renderer/scene/description.h>
 
@@ -18,5 +20,9 @@ namespace plumbline::renderer {
 SceneDescription load_scene(const std::filesystem::path& file,
                             const std::map<std::string, std::string>& overrides = {},
                             std::optional<FilmSize> size = std::nullopt);
+
+/// The types that a scene file may name for an element: "sphere", "rectangle", … for "shape".
+/// Empty for an element that has no type.
+std::vector<std::string> supported_types(std::string_view tag);
 
 }  // namespace plumbline::renderer

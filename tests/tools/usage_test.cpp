@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+
+namespace plumbline::tests {
+namespace {
+
+TEST(Help, ShowsExamplesOfEveryCommand) {
+  const Scratch scratch;
+  for (const char* arguments :
+       {"--help", "list --help", "render --help", "compare --help", "report --help"}) {
+    const Outcome outcome = run_plumbline(scratch.path(), arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << arguments;
+    EXPECT_NE(outcome.out.find("Example"), std::string::npos) << arguments;
+    EXPECT_EQ(outcome.err, "") << arguments;
+  }
+}
+
+TEST(List, ShowsEachSceneWithItsAnswerAndParameters) {
+  const Scratch scratch;
+  const Outcome outcome = run_plumbline(scratch.path(), "list scenes");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("furnace_open"), std::string::npos);
+  EXPECT_NE(outcome.out.find("L = albedo * Le"), std::string::npos);
+  EXPECT_NE(outcome.out.find("-D albedo=0.75"), std::string::npos);
+}
+
+TEST(List, NamesAreForScripts) {
+  const Scratch scratch;
+  EXPECT_EQ(run_plumbline(scratch.path(), "list heuristics --names").out, "balance\npower\n");
+  EXPECT_EQ(run_plumbline(scratch.path(), "list shapes --names").out,
+            "sphere\nrectangle\ndisk\nobj\n");
+}
+
+TEST(List, WithoutATopicShowsAll) {
+  const Scratch scratch;
+  const std::string out = run_plumbline(scratch.path(), "list").out;
+  for (const char* name : {"furnace_cube", "one-sample", "balance", "diffuse", "constant"}) {
+    EXPECT_NE(out.find(name), std::string::npos) << name;
+  }
+}
+
+struct Misuse {
+  const char* arguments;
+  const char* message;  ///< part of what standard error says
+};
+
+TEST(Misuse, HasExitCodeTwoAndAMessage) {
+  const Scratch scratch;
+  scratch.write("scene.xml", "<scene version=\"3.0.0\">\n<shap/></scene>");
+  scratch.write("text.exr", "not an image");
+  const std::vector<Misuse> cases = {
+      {"", "A subcommand is required"},
+      {"rendr", R"(there is no command "rendr"; did you mean "render"?)"},
+      {"--frobnicate", R"(there is no command "--frobnicate"; supported: list)"},
+      {"list planets", "planets"},
+      {"render furnace_open", "--output is required"},
+      {"render -o x.exr", "scene is required"},
+      {"render furnace_opne -o x.exr",
+       R"(furnace_opne: neither a scene file nor a known scene; did you mean "furnace_open"?)"},
+      {"render missing.xml -o x.exr", "missing.xml: there is no such file"},
+      {"render scene.xml -o x.exr",
+       R"(scene.xml:2: <scene> may not hold <shap>; did you mean "shape"?)"},
+      {"render furnace_open -o x.exr --strategy mys",
+       R"(--strategy mys: there is no such strategy; did you mean "mis"?)"},
+      {"render furnace_open -o x.exr --heuristic cutoff",
+       "--heuristic cutoff: there is no such heuristic; supported: balance, power"},
+      {"render furnace_open -o x.exr --spp 0", "0 is not a whole number from 1"},
+      {"render furnace_open -o x.exr --spp 1.5", "1.5 is not a whole number"},
+      {"render furnace_open -o x.exr --spp 99999999999", "is not a whole number from 1"},
+      {"render furnace_open -o x.exr --seed -1", "-1 is not a whole number from 0"},
+      {"render furnace_open -o x.exr --seconds nan", "nan is not a positive number"},
+      {"render furnace_open -o x.exr --seconds 0", "0 is not a positive number"},
+      {"render furnace_open -o x.exr --error inf", "inf is not a positive number"},
+      {"render furnace_open -o x.exr --max-depth -2", "-2 is not a whole number from -1"},
+      {"render furnace_open -o x.exr --threads 0", "0 is not a whole number from 1 to 1024"},
+      {"render furnace_open -o x.exr --size 64", "--size 64: must read WIDTHxHEIGHT"},
+      {"render furnace_open -o x.exr --size 0x64", "a film of 0x64 is not supported"},
+      {"render furnace_open -o x.exr --size 99999x99999", "a film of 99999x99999"},
+      {"render furnace_open -o x.exr -D albedo", "-D albedo: must read name=value"},
+      {"render furnace_open -o x.exr -D albdo=1", R"(did you mean "albedo"?)"},
+      {"render furnace_open -o x.exr -D albedo=1 -D albedo=0", "albedo is set twice"},
+      {"render furnace_open -o x.exr -D albedo=2", "must lie between 0 and 1"},
+      {"render furnace_open -o .", ".: is a directory"},
+      {"render furnace_open -o missing/x.exr", "there is no directory missing"},
+      {"render furnace_open -o x.exr --json missing/x.json", "there is no directory missing"},
+      {"compare missing.exr --scene furnace_open", "missing.exr: no such image"},
+      {"compare text.exr --scene furnace_open", "text.exr: "},
+      {"compare text.exr", "either two images, or one image and --scene"},
+      {"compare text.exr text.exr --scene furnace_open", "either two images, or one"},
+      {"compare text.exr text.exr -D a=1", "belong to --scene"},
+      {"compare text.exr --scene furnace_open --exact", "--exact compares two images"},
+      {"compare text.exr --scene furnac_open", R"(did you mean "furnace_open"?)"},
+      {"compare text.exr --scene furnace_open --tolerance -1", "-1 is not a positive number"},
+      {"report missing -o page.html", "missing"},
+  };
+  for (const Misuse& misuse : cases) {
+    const Outcome outcome = run_plumbline(scratch.path(), misuse.arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << misuse.arguments << "\n" << outcome.err;
+    EXPECT_NE(outcome.err.find(misuse.message), std::string::npos) << misuse.arguments << "\n"
+                                                                   << outcome.err;
+  }
+  EXPECT_EQ(scratch.listing(), "scene.xml text.exr");
+}
+
+}  // namespace
+}  // namespace plumbline::tests

@@ -1,0 +1,236 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <plumbline/analytic/known_scene.h>
+#include <plumbline/renderer/render/exr.h>
+#include <plumbline/renderer/scene/description.h>
+#include <plumbline/verify/image_check.h>
+
+#include "command.h"
+#include "numbers.h"
+#include "scene_argument.h"
+
+namespace plumbline::tools {
+namespace {
+
+struct CompareArguments {
+  std::vector<std::string> images;
+  std::string scene;
+  double tolerance = 0.01;
+  bool exact = false;
+  std::optional<int> max_depth;
+  std::vector<std::string> definitions;
+};
+
+constexpr std::array kChannels = {&renderer::Rgbf::r, &renderer::Rgbf::g, &renderer::Rgbf::b};
+constexpr std::array kChannelNames = {"R", "G", "B"};
+
+bool is_grey(const renderer::Image& image) {
+  for (const renderer::Rgbf& pixel : image.pixels) {
+    if (!(pixel.r == pixel.g && pixel.g == pixel.b)) return false;
+  }
+  return true;
+}
+
+/// Whether the image says how noisy it is. One sample has no variance: what the layer holds then is
+/// not an estimate.
+bool knows_noise(const renderer::Image& image) {
+  return !image.variance.empty() && !image.count.empty() &&
+         std::all_of(image.count.begin(), image.count.end(), [](float n) { return n >= 2; });
+}
+
+/// @param with_noise  whether to keep the variance layer
+verify::Image channel(const renderer::Image& image, float renderer::Rgbf::*member,
+                      bool with_noise) {
+  verify::Image result{image.width, image.height, {}, {}, {}};
+  for (const renderer::Rgbf& pixel : image.pixels) {
+    result.mean.push_back(static_cast<double>(pixel.*member));
+  }
+  if (!with_noise) return result;
+  for (const renderer::Rgbf& variance : image.variance) {
+    result.variance.push_back(static_cast<double>(variance.*member));
+  }
+  result.count.assign(image.count.begin(), image.count.end());
+  return result;
+}
+
+std::string header_value(const renderer::Image& image, const std::string& key) {
+  const auto found = image.metadata.find(key);
+  return found == image.metadata.end() ? std::string() : found->second;
+}
+
+/// Samples that the renderer left out of the image's mean, if its header says so.
+std::uint64_t non_finite_samples(const renderer::Image& image) {
+  const std::string text = header_value(image, "non_finite");
+  std::uint64_t count = 0;
+  std::from_chars(text.data(), text.data() + text.size(), count);
+  return count;
+}
+
+int report_verdict(const verify::CheckResult& check) {
+  fmt::print("{}", describe(check));
+  return check.as_expected() ? kExitFine : kExitUnexpectedVerdict;
+}
+
+/// The parameters that an image of ours was rendered with, overridden by -D.
+std::map<std::string, std::string> parameters_of(const renderer::Image& image,
+                                                 const CompareArguments& arguments) {
+  std::map<std::string, std::string> parameters = parse_definitions(arguments.definitions);
+  if (header_value(image, "scene") != arguments.scene) return parameters;
+  const std::string prefix = "parameter.";
+  for (const auto& [key, value] : image.metadata) {
+    if (key.rfind(prefix, 0) == 0) parameters.emplace(key.substr(prefix.size()), value);
+  }
+  return parameters;
+}
+
+/// The depth given, else the one that an image of ours was rendered with, else the scene's.
+std::optional<int> max_depth_of(const renderer::Image& image, const CompareArguments& arguments) {
+  if (arguments.max_depth || header_value(image, "scene") != arguments.scene) {
+    return arguments.max_depth;
+  }
+  const std::string text = header_value(image, "max_depth");
+  int depth = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), depth);
+  return parsed.ec == std::errc() ? std::optional(depth) : std::nullopt;
+}
+
+/// Is this image, whoever rendered it, unbiased against the closed form of a known scene?
+int compare_with_closed_form(const CompareArguments& arguments) {
+  const analytic::KnownScene& scene = known_scene(arguments.scene);
+  const renderer::Image image = renderer::read_exr(arguments.images[0]);
+  const auto oracle =
+      make_oracle(scene, numeric_values(parameters_of(image, arguments)),
+                  analytic::FilmSize{image.width, image.height}, max_depth_of(image, arguments));
+  const verify::Image exact{image.width, image.height, oracle->image(), {}, {}};
+  verify::ImageOptions options;
+  options.tolerance = arguments.tolerance;
+  options.non_finite = non_finite_samples(image);
+  int exit_code = kExitFine;
+  const std::size_t channels = is_grey(image) ? 1 : kChannels.size();
+  for (std::size_t i = 0; i < channels; ++i) {
+    options.subject = fmt::format("{} against {}{}{}", arguments.images[0], arguments.scene,
+                                  channels == 1 ? "" : ", ", channels == 1 ? "" : kChannelNames[i]);
+    const verify::Image seen = channel(image, kChannels[i], knows_noise(image));
+    exit_code = std::max(exit_code, report_verdict(check_image(options, seen, exact).check));
+  }
+  return exit_code;
+}
+
+void require_same_size(const renderer::Image& a, const renderer::Image& b) {
+  if (a.width == b.width && a.height == b.height) return;
+  throw renderer::InputError(fmt::format("the images differ in size: {}x{} and {}x{}", a.width,
+                                         a.height, b.width, b.height));
+}
+
+bool same_bits(const renderer::Rgbf& a, const renderer::Rgbf& b) {
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+  return bits(a.r) == bits(b.r) && bits(a.g) == bits(b.g) && bits(a.b) == bits(b.b);
+}
+
+/// Do two images hold the same pixels, bit for bit?
+int compare_exactly(const renderer::Image& a, const renderer::Image& b) {
+  std::size_t different = 0, first = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    if (same_bits(a.pixels[i], b.pixels[i])) continue;
+    if (different++ == 0) first = i;
+  }
+  if (different == 0) {
+    fmt::print("the images are identical: {} pixels, bit for bit\n", a.pixels.size());
+    return kExitFine;
+  }
+  const auto width = static_cast<std::size_t>(a.width);
+  const renderer::Rgbf &p = a.pixels[first], &q = b.pixels[first];
+  fmt::print("{} of {} pixels differ, the first at ({}, {}): {} {} {} and {} {} {}\n", different,
+             a.pixels.size(), first % width, first / width, p.r, p.g, p.b, q.r, q.g, q.b);
+  return kExitUnexpectedVerdict;
+}
+
+/// Do two renders have the same mean everywhere?
+int compare_renders(const CompareArguments& arguments) {
+  const renderer::Image a = renderer::read_exr(arguments.images[0]);
+  const renderer::Image b = renderer::read_exr(arguments.images[1]);
+  require_same_size(a, b);
+  if (arguments.exact) return compare_exactly(a, b);
+  verify::ImageOptions options;
+  options.tolerance = arguments.tolerance;
+  options.non_finite = non_finite_samples(a) + non_finite_samples(b);
+  // Where one image does not know its noise, the residuals know the noise of both.
+  const bool with_noise = knows_noise(a) && knows_noise(b);
+  int exit_code = kExitFine;
+  const std::size_t channels = is_grey(a) && is_grey(b) ? 1 : kChannels.size();
+  for (std::size_t i = 0; i < channels; ++i) {
+    options.subject = fmt::format("{} against {}{}{}", arguments.images[0], arguments.images[1],
+                                  channels == 1 ? "" : ", ", channels == 1 ? "" : kChannelNames[i]);
+    const verify::ImageResult result = check_image(options, channel(a, kChannels[i], with_noise),
+                                                   channel(b, kChannels[i], with_noise));
+    exit_code = std::max(exit_code, report_verdict(result.check));
+  }
+  return exit_code;
+}
+
+int run_compare(const CompareArguments& arguments) {
+  const bool with_scene = !arguments.scene.empty();
+  if (with_scene == (arguments.images.size() == 2)) {
+    throw renderer::InputError("compare needs either two images, or one image and --scene");
+  }
+  if (!with_scene && (!arguments.definitions.empty() || arguments.max_depth)) {
+    throw renderer::InputError("-D and --max-depth belong to --scene");
+  }
+  if (with_scene && arguments.exact) {
+    throw renderer::InputError("--exact compares two images, not an image with a scene");
+  }
+  return with_scene ? compare_with_closed_form(arguments) : compare_renders(arguments);
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, Run& run) {
+  const auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "Hold an image against a closed form, or against another image");
+  command->add_option("images", arguments->images, "One image with --scene, or two images")
+      ->required()
+      ->expected(1, 2)
+      ->type_name("");
+  command->add_option("--scene", arguments->scene, "Known scene whose closed form is the reference")
+      ->type_name("NAME");
+  command
+      ->add_option("--tolerance", arguments->tolerance,
+                   "Largest relative bias that passes; 0.01 without it")
+      ->check(positive_number())
+      ->type_name("E");
+  command->add_flag("--exact", arguments->exact, "Two images must be equal bit for bit");
+  command
+      ->add_option("--max-depth", arguments->max_depth,
+                   "Depth that the image was rendered with, if not the scene's")
+      ->check(whole_number(-1, std::numeric_limits<int>::max()))
+      ->type_name("N");
+  command
+      ->add_option("-D", arguments->definitions,
+                   "Value that the image was rendered with, if not the scene's; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
+  command->footer(
+      R"(Images of plumbline carry their parameters and depth in the header; others need -D and --max-depth
+where they differ from the scene file.
+
+Examples:
+  plumbline compare image.exr --scene furnace_sphere --tolerance 0.005
+  plumbline compare mis.exr light.exr
+  plumbline compare before.exr after.exr --exact)");
+  command->callback([arguments, &run] { run = [arguments] { return run_compare(*arguments); }; });
+}
+
+}  // namespace plumbline::tools

@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <plumbline/analytic/known_scene.h>
+#include <plumbline/renderer/render/strategy.h>
+#include <plumbline/renderer/scene/load_scene.h>
+
+#include "command.h"
+
+namespace plumbline::tools {
+namespace {
+
+struct Entry {
+  std::string name, meaning;
+};
+
+/// Something that can be listed.
+struct Topic {
+  std::string name, title;
+  std::vector<Entry> entries;
+};
+
+std::string parameters_of(const analytic::KnownScene& scene) {
+  std::string text;
+  for (const analytic::Parameter& parameter : scene.parameters) {
+    text += fmt::format("\n    -D {}={}  {}", parameter.name, parameter.value, parameter.meaning);
+  }
+  return text;
+}
+
+Topic scenes() {
+  Topic topic{"scenes", "scenes whose answer is known", {}};
+  for (const analytic::KnownScene& scene : analytic::known_scenes()) {
+    topic.entries.push_back(
+        {std::string(scene.name), std::string(scene.answer) + parameters_of(scene)});
+  }
+  return topic;
+}
+
+std::string meaning(renderer::Strategy strategy) {
+  switch (strategy) {
+    case renderer::Strategy::bsdf:
+      return "directions from the BSDF only";
+    case renderer::Strategy::light:
+      return "points on lights only";
+    case renderer::Strategy::uniform:
+      return "directions uniform on the hemisphere only";
+    case renderer::Strategy::mis:
+      return "one light sample and one BSDF sample, weighted by a heuristic";
+    case renderer::Strategy::one_sample:
+      return "light or BSDF, chosen at random, weighted by a heuristic";
+  }
+  return {};
+}
+
+Topic strategies() {
+  Topic topic{"strategies", "strategies for direct light at every vertex", {}};
+  for (const renderer::Strategy strategy : renderer::kStrategies) {
+    topic.entries.push_back({std::string(name(strategy)), meaning(strategy)});
+  }
+  return topic;
+}
+
+Topic heuristics() {
+  Topic topic{"heuristics", "heuristics for the weights of mis and one-sample", {}};
+  for (const renderer::Heuristic heuristic : renderer::kHeuristics) {
+    topic.entries.push_back({std::string(name(heuristic)), {}});
+  }
+  return topic;
+}
+
+/// What a scene file may name as the type of an element.
+Topic types(const std::string& topic_name, const std::string& tag) {
+  Topic topic{topic_name, fmt::format("<{} type=…> in a scene file", tag), {}};
+  for (const std::string& type : renderer::supported_types(tag)) {
+    topic.entries.push_back({type, {}});
+  }
+  return topic;
+}
+
+std::vector<Topic> topics() {
+  return {scenes(),
+          strategies(),
+          heuristics(),
+          types("bsdfs", "bsdf"),
+          types("lights", "emitter"),
+          types("shapes", "shape"),
+          types("integrators", "integrator")};
+}
+
+void print(const Topic& topic, bool names_only) {
+  if (!names_only) fmt::print("{}:\n", topic.title);
+  for (const Entry& entry : topic.entries) {
+    if (names_only) {
+      fmt::print("{}\n", entry.name);
+    } else if (entry.meaning.empty()) {
+      fmt::print("  {}\n", entry.name);
+    } else {
+      fmt::print("  {:<16} {}\n", entry.name, entry.meaning);
+    }
+  }
+}
+
+struct ListArguments {
+  std::string topic;
+  bool names_only = false;
+};
+
+int run_list(const ListArguments& arguments) {
+  for (const Topic& topic : topics()) {
+    if (arguments.topic.empty() || topic.name == arguments.topic) {
+      print(topic, arguments.names_only);
+    }
+  }
+  return kExitFine;
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, Run& run) {
+  const auto arguments = std::make_shared<ListArguments>();
+  CLI::App* command = app.add_subcommand("list", "List what can be rendered, and how");
+  std::vector<std::string> names;
+  for (const Topic& topic : topics()) names.push_back(topic.name);
+  command
+      ->add_option("topic", arguments->topic,
+                   fmt::format("One of {}; everything without it", fmt::join(names, ", ")))
+      ->check(CLI::IsMember(names).description(""))
+      ->type_name("");
+  command->add_flag("--names", arguments->names_only, "Names only, one on a line");
+  command->footer("Example:\n  plumbline list scenes --names");
+  command->callback([arguments, &run] { run = [arguments] { return run_list(*arguments); }; });
+}
+
+}  // namespace plumbline::tools

@@ -1,0 +1,119 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <plumbline/renderer/nearest_name.h>
+#include <plumbline/renderer/scene/description.h>
+
+#include "command.h"
+#include "output_file.h"
+#include "report_command.h"
+
+namespace plumbline::tools {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  plumbline list scenes
+  plumbline render furnace_sphere -o furnace.exr --strategy mis --spp 256
+  plumbline compare furnace.exr --scene furnace_sphere
+  plumbline render bench/scenes/cornell.xml -o cornell.exr --seconds 10 --json cornell.json
+
+Exit codes: 0 fine, 1 a check did not give its expected verdict, 2 bad input or usage,
+3 the machine failed (disk full, out of memory).)";
+
+void add_report_command(CLI::App& app, Run& run) {
+  struct Arguments {
+    std::string results, page;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("report", "Make the page of a results directory");
+  command->add_option("results", arguments->results, "Directory with records")
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", arguments->page, "HTML file to write")
+      ->required()
+      ->type_name("FILE");
+  command->footer("Example:\n  plumbline report build/release/results -o index.html");
+  command->callback([arguments, &run] {
+    run = [arguments] {
+      const OutputFile page(arguments->page);
+      const int exit_code = run_report(arguments->results, page.path());
+      page.finish();
+      return exit_code;
+    };
+  });
+}
+
+constexpr const char* kOutputLost = "cannot write to the standard output; is it full?";
+
+/// CLI11 says of an unknown command or option in its place only that a command is required.
+void check_command_name(const CLI::App& app, const std::string& first) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  if (std::find(known.begin(), known.end(), first) != known.end()) return;
+  if (app.get_option_no_throw(first) != nullptr) return;
+  throw renderer::InputError(
+      fmt::format("there is no command \"{}\"; {}", first, renderer::name_hint(first, known)));
+}
+
+int fail(int exit_code, const char* message) {
+  fmt::print(stderr, "plumbline: {}\n", message);
+  return exit_code;
+}
+
+/// Runs the command and turns what it throws into an exit code.
+int run_command(const Run& run) {
+  try {
+    const int exit_code = run();
+    // What was printed must have arrived: a full disk may lie behind the standard output.
+    if (std::fflush(stdout) != 0) return fail(kExitMachineFailed, kOutputLost);
+    return exit_code;
+  } catch (const renderer::InputError& error) {
+    return fail(kExitBadInput, error.what());
+  } catch (const std::invalid_argument& error) {
+    return fail(kExitBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kExitMachineFailed, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(kExitMachineFailed, error.what());
+  }
+}
+
+int main_of(int argc, char** argv) {
+  // A file that would outgrow its limit is an error of write(), not a death without a word.
+  std::signal(SIGXFSZ, SIG_IGN);
+  CLI::App app("Checks Monte Carlo sampling code, around a compact MIS renderer", "plumbline");
+  app.set_version_flag("--version", PLUMBLINE_VERSION);
+  app.require_subcommand(1);
+  app.footer(kExamples);
+  Run run;
+  add_list_command(app, run);
+  add_render_command(app, run);
+  add_compare_command(app, run);
+  add_report_command(app, run);
+  try {
+    if (argc > 1) check_command_name(app, argv[1]);
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (app.exit(error) != 0) return kExitBadInput;
+    return std::cout.flush() ? kExitFine : fail(kExitMachineFailed, kOutputLost);
+  } catch (const renderer::InputError& error) {
+    return fail(kExitBadInput, error.what());
+  }
+  return run_command(run);
+}
+
+}  // namespace
+}  // namespace plumbline::tools
+
+int main(int argc, char** argv) { return plumbline::tools::main_of(argc, argv); }

@@ -1,0 +1,272 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <plumbline/renderer/nearest_name.h>
+#include <plumbline/renderer/render/exr.h>
+#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/reports/render_record.h>
+
+#include "command.h"
+#include "numbers.h"
+#include "output_file.h"
+#include "progress.h"
+#include "scene_argument.h"
+
+namespace plumbline::tools {
+namespace {
+
+constexpr std::uint32_t kMaxSamples = 1u << 31;
+
+struct RenderArguments {
+  std::string scene;
+  std::string output;
+  std::string json;
+  renderer::Strategy strategy = renderer::Strategy::mis;
+  renderer::Heuristic heuristic = renderer::Heuristic::power;
+  std::optional<std::uint32_t> samples;
+  double seconds = 0;
+  double error = 0;
+  std::optional<int> max_depth;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  std::string size;
+  std::vector<std::string> definitions;
+};
+
+template <class Values>
+std::vector<std::string> names_of(const Values& values) {
+  std::vector<std::string> names;
+  for (const auto value : values) names.emplace_back(name(value));
+  return names;
+}
+
+/// "WxH"
+std::optional<renderer::FilmSize> parse_size(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  renderer::FilmSize size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+    const auto height = std::from_chars(width.ptr + 1, end, size.height);
+    if (height.ec == std::errc() && height.ptr == end) return size;
+  }
+  throw renderer::InputError(fmt::format("--size {}: must read WIDTHxHEIGHT", text));
+}
+
+renderer::RenderOptions render_options(const RenderArguments& arguments,
+                                       const renderer::SceneDescription& scene) {
+  renderer::RenderOptions options;
+  options.path.strategy = arguments.strategy;
+  options.path.heuristic = arguments.heuristic;
+  options.path.max_depth = arguments.max_depth.value_or(scene.integrator.max_depth);
+  options.path.rr_depth = scene.integrator.rr_depth;
+  // A limit on time or error stands for the number of samples unless both are given.
+  const bool other_limit = arguments.seconds > 0 || arguments.error > 0;
+  options.samples_per_pixel = arguments.samples.value_or(
+      other_limit ? kMaxSamples : static_cast<std::uint32_t>(scene.samples_per_pixel));
+  options.seconds = arguments.seconds;
+  options.relative_error = arguments.error;
+  options.seed = arguments.seed;
+  options.threads = arguments.threads;
+  return options;
+}
+
+std::string counted(std::size_t count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string strategy_label(const RenderArguments& arguments) {
+  const std::string label =
+      arguments.strategy == renderer::Strategy::mis ? "MIS" : std::string(name(arguments.strategy));
+  if (!uses_heuristic(arguments.strategy)) return label;
+  return fmt::format("{} ({})", label, name(arguments.heuristic));
+}
+
+void print_found(const RenderArguments& arguments, const renderer::SceneDescription& description,
+                 const renderer::Scene& scene, const renderer::RenderOptions& options) {
+  fmt::print("{}: {}, {}, {}, {}x{} pixels", strategy_label(arguments),
+             counted(scene.lights().size(), "light"), counted(scene.shape_count(), "shape"),
+             counted(description.bsdfs.size(), "BSDF"), description.camera.width,
+             description.camera.height);
+  if (options.path.max_depth < 0) {
+    fmt::print(", depth unlimited");
+  } else {
+    fmt::print(", depth {}", options.path.max_depth);
+  }
+  if (options.samples_per_pixel < kMaxSamples) {
+    fmt::print(", up to {} per pixel", counted(options.samples_per_pixel, "sample"));
+  }
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
+reports::RenderRecord make_record(const RenderArguments& arguments,
+                                  const renderer::RenderOptions& options,
+                                  const renderer::RenderResult& result) {
+  const renderer::Rgbd mean = result.film.mean();
+  reports::RenderRecord record;
+  record.scene = arguments.scene;
+  record.strategy = name(arguments.strategy);
+  if (uses_heuristic(arguments.strategy)) record.heuristic = name(arguments.heuristic);
+  record.samples_per_pixel = result.samples_per_pixel;
+  record.seconds = result.seconds;
+  record.camera_rays = result.counters.camera_rays;
+  record.bounce_rays = result.counters.bounce_rays;
+  record.shadow_rays = result.counters.shadow_rays;
+  record.rejected = result.counters.rejected;
+  record.non_finite = result.film.non_finite();
+  record.mean = {mean.r, mean.g, mean.b};
+  record.seed = arguments.seed;
+  record.version = PLUMBLINE_VERSION;
+  record.max_depth = options.path.max_depth;
+  record.width = result.film.width();
+  record.height = result.film.height();
+  record.threads = arguments.threads > 0 ? arguments.threads
+                                         : static_cast<int>(std::thread::hardware_concurrency());
+  record.parameters = parse_definitions(arguments.definitions);
+  return record;
+}
+
+/// What an image says about itself in its header; `compare` reads it back.
+std::map<std::string, std::string> metadata(const reports::RenderRecord& record) {
+  std::map<std::string, std::string> data = {
+      {"scene", record.scene},
+      {"strategy", record.strategy},
+      {"seed", std::to_string(record.seed)},
+      {"samples", std::to_string(record.samples_per_pixel)},
+      {"seconds", fmt::format("{:.3f}", record.seconds)},
+      {"max_depth", std::to_string(record.max_depth)},
+      {"non_finite", std::to_string(record.non_finite)},
+      {"version", record.version},
+  };
+  if (!record.heuristic.empty()) data["heuristic"] = record.heuristic;
+  for (const auto& [name, value] : record.parameters) data["parameter." + name] = value;
+  return data;
+}
+
+void print_done(const std::string& output, const reports::RenderRecord& record) {
+  const auto rays =
+      static_cast<double>(record.camera_rays + record.bounce_rays + record.shadow_rays);
+  fmt::print("{}: mean {:.6g} {:.6g} {:.6g}, {} samples per pixel in {:.2f} s, {:.2f} Mrays/s",
+             output, record.mean[0], record.mean[1], record.mean[2], record.samples_per_pixel,
+             record.seconds, rays / record.seconds * 1e-6);
+  if (record.rejected > 0) fmt::print(", {} rejected", record.rejected);
+  if (record.non_finite > 0) fmt::print(", {} NOT FINITE", record.non_finite);
+  fmt::print("\n");
+}
+
+int run_render(const RenderArguments& arguments) {
+  const OutputFile output(arguments.output);
+  const auto json = arguments.json.empty() ? nullptr : std::make_unique<OutputFile>(arguments.json);
+  const renderer::SceneDescription description =
+      load_scene(scene_path(arguments.scene), parse_definitions(arguments.definitions),
+                 parse_size(arguments.size));
+  const renderer::Scene scene(description);
+  renderer::RenderOptions options = render_options(arguments, description);
+  print_found(arguments, description, scene, options);
+  Progress progress(arguments.seconds, options.samples_per_pixel < kMaxSamples);
+  if (progress.shown()) options.progress = [&](double done) { progress.update(done); };
+  const renderer::RenderResult result = render(scene, options);
+
+  reports::RenderRecord record = make_record(arguments, options, result);
+  if (!output.is_device()) record.image = arguments.output;
+  renderer::Image image = to_image(result.film);
+  image.metadata = metadata(record);
+  write_exr(output.path(), image);
+  output.finish();
+  if (json) {
+    reports::write_render_record(json->path(), record);
+    json->finish();
+  }
+  print_done(arguments.output, record);
+  return kExitFine;
+}
+
+renderer::Strategy parse_strategy(const std::string& text) {
+  if (const auto strategy = renderer::strategy_from_name(text)) return *strategy;
+  throw renderer::InputError(
+      fmt::format("--strategy {}: there is no such strategy; {}", text,
+                  renderer::name_hint(text, names_of(renderer::kStrategies))));
+}
+
+renderer::Heuristic parse_heuristic(const std::string& text) {
+  if (const auto heuristic = renderer::heuristic_from_name(text)) return *heuristic;
+  throw renderer::InputError(
+      fmt::format("--heuristic {}: there is no such heuristic; {}", text,
+                  renderer::name_hint(text, names_of(renderer::kHeuristics))));
+}
+
+void add_options(CLI::App& command, RenderArguments& arguments) {
+  command.add_option("scene", arguments.scene, "Scene file, or name of a known scene")
+      ->required()
+      ->type_name("");
+  command.add_option("-o,--output", arguments.output, "OpenEXR file to write")
+      ->required()
+      ->type_name("FILE");
+  command
+      .add_option_function<std::string>(
+          "--strategy", [&](const std::string& text) { arguments.strategy = parse_strategy(text); },
+          fmt::format("One of {}; mis without it",
+                      fmt::join(names_of(renderer::kStrategies), ", ")))
+      ->type_name("NAME");
+  command
+      .add_option_function<std::string>(
+          "--heuristic",
+          [&](const std::string& text) { arguments.heuristic = parse_heuristic(text); },
+          fmt::format("One of {}; power without it",
+                      fmt::join(names_of(renderer::kHeuristics), ", ")))
+      ->type_name("NAME");
+  command.add_option("--spp", arguments.samples, "Samples per pixel; the scene's without it")
+      ->check(whole_number(1, kMaxSamples))
+      ->type_name("N");
+  command.add_option("--seconds", arguments.seconds, "Stop after this time")
+      ->check(positive_number())
+      ->type_name("S");
+  command.add_option("--error", arguments.error, "Stop at this estimated relative error")
+      ->check(positive_number())
+      ->type_name("E");
+  command
+      .add_option("--max-depth", arguments.max_depth,
+                  "1: emission only, 2: direct light too, -1: all; the scene's without it")
+      ->check(whole_number(-1, std::numeric_limits<int>::max()))
+      ->type_name("N");
+  command.add_option("--seed", arguments.seed, "The same seed gives the same bits; 0 without it")
+      ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("N");
+  command
+      .add_option("--threads", arguments.threads, "All cores without it; no matter to the image")
+      ->check(whole_number(1, 1024))
+      ->type_name("N");
+  command.add_option("--size", arguments.size, "Size of the image in place of the scene's")
+      ->type_name("WxH");
+  command.add_option("--json", arguments.json, "Write rays, time, mean and settings to this file")
+      ->type_name("FILE");
+  command.add_option("-D", arguments.definitions, "Value for a <default> of the scene; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE");
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Run& run) {
+  const auto arguments = std::make_shared<RenderArguments>();
+  CLI::App* command = app.add_subcommand("render", "Render a scene to an OpenEXR image");
+  add_options(*command, *arguments);
+  command->footer(R"(Examples:
+  plumbline render furnace_cube -o cube.exr --strategy one-sample --heuristic balance --spp 1024
+  plumbline render sphere_light -o light.exr -D radius=0.1 -D height=2 --error 0.01
+  plumbline render scene.xml -o /dev/null --seconds 30 --threads 1 --json timing.json)");
+  command->callback([arguments, &run] { run = [arguments] { return run_render(*arguments); }; });
+}
+
+}  // namespace plumbline::tools
