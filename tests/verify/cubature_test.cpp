@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/sampling_pair.h>
 
 #include "binned_pair.h"
 #include "cubature.h"
@@ -55,16 +55,22 @@ TEST(Cubature, SaysWhenTheIntegrandIsNotFinite) {
   EXPECT_FALSE(over_square([](const Point2& p) { return 1 / (p[0] - 0.5); }, 1e-6).finite);
 }
 
+PairSample at(const Vec3& x) {
+  PairSample s;
+  s.x = x;
+  return s;
+}
+
 /// Density and sampler of a rectangle seen from the origin: its edges are curves on the chart.
-ChartedPair rectangle(double x0, double width, double y0, double height) {
-  ChartedPair pair;
-  pair.chart = &sphere_chart();
-  pair.sample = [=](Random& random) -> std::optional<Vec3> {
-    const double x = x0 + width * random.uniform(), y = y0 + height * random.uniform();
+SamplingPair rectangle(double x0, double width, double y0, double height) {
+  SamplingPair pair;
+  pair.domain = Domain::sphere();
+  pair.sample = [=](const Uniforms& u) -> std::optional<PairSample> {
+    const double x = x0 + width * u[0], y = y0 + height * u[1];
     const double d = std::sqrt(x * x + y * y + 1);
-    return Vec3{x / d, y / d, 1 / d};
+    return at({x / d, y / d, 1 / d});
   };
-  pair.density = [=](const Vec3& w) {
+  pair.pdf = [=](const Vec3& w) {
     if (!(w[2] > 0)) return 0.0;
     const double s = (w[0] / w[2] - x0) / width, t = (w[1] / w[2] - y0) / height;
     return s >= 0 && s <= 1 && t >= 0 && t <= 1 ? 1 / (w[2] * w[2] * w[2] * width * height) : 0.0;
@@ -73,34 +79,34 @@ ChartedPair rectangle(double x0, double width, double y0, double height) {
 }
 
 TEST(BinIntegrals, AddUpToOneForASupportWithCurvedEdges) {
-  for (const ChartedPair& pair : {rectangle(-0.3, 1, -0.2, 0.7), rectangle(2, 0.01, 3, 0.02),
-                                  rectangle(-1e-3, 2e-3, -1e-3, 2e-3), rectangle(-9, 18, 1, 5)}) {
-    const BinnedPair binned(pair, 12, 2.5e-5, 1);
+  for (const SamplingPair& pair : {rectangle(-0.3, 1, -0.2, 0.7), rectangle(2, 0.01, 3, 0.02),
+                                   rectangle(-1e-3, 2e-3, -1e-3, 2e-3), rectangle(-9, 18, 1, 5)}) {
+    const BinnedPair binned(pair, 4096, 2.5e-5, 1);
     EXPECT_LE(binned.expected().total_error, 5e-5);
     EXPECT_NEAR(binned.expected().total, 1, 5e-5);
   }
 }
 
 /// Density ∝ exp(k cosθ) around an axis, sampled by inversion.
-ChartedPair lobe(double k, const Vec3& axis) {
+SamplingPair lobe(double k, const Vec3& axis) {
   const Vec3 s = std::abs(axis[2]) < 0.9 ? Vec3{axis[1], -axis[0], 0} : Vec3{0, axis[2], -axis[1]};
   const double length = std::hypot(s[0], s[1], s[2]);
-  const Vec3 u{s[0] / length, s[1] / length, s[2] / length};
-  const Vec3 v{axis[1] * u[2] - axis[2] * u[1], axis[2] * u[0] - axis[0] * u[2],
-               axis[0] * u[1] - axis[1] * u[0]};
-  ChartedPair pair;
-  pair.chart = &sphere_chart();
-  pair.sample = [=](Random& random) -> std::optional<Vec3> {
+  const Vec3 a{s[0] / length, s[1] / length, s[2] / length};
+  const Vec3 b{axis[1] * a[2] - axis[2] * a[1], axis[2] * a[0] - axis[0] * a[2],
+               axis[0] * a[1] - axis[1] * a[0]};
+  SamplingPair pair;
+  pair.domain = Domain::sphere();
+  pair.sample = [=](const Uniforms& u) -> std::optional<PairSample> {
     // 1 − cosθ, written so that nothing cancels for narrow lobes.
-    const double h = -std::log1p(-random.uniform() * -std::expm1(-2 * k)) / k;
-    const double radius = std::sqrt(h * (2 - h)), phi = 2 * kPi * random.uniform();
+    const double h = -std::log1p(-u[0] * -std::expm1(-2 * k)) / k;
+    const double radius = std::sqrt(h * (2 - h)), phi = 2 * kPi * u[1];
     Vec3 w;
     for (std::size_t i = 0; i < 3; ++i) {
-      w[i] = axis[i] * (1 - h) + radius * (std::cos(phi) * u[i] + std::sin(phi) * v[i]);
+      w[i] = axis[i] * (1 - h) + radius * (std::cos(phi) * a[i] + std::sin(phi) * b[i]);
     }
-    return w;
+    return at(w);
   };
-  pair.density = [=](const Vec3& w) {
+  pair.pdf = [=](const Vec3& w) {
     // 1 − cosθ = |w − axis|²/2 for unit vectors.
     const double h =
         (std::pow(w[0] - axis[0], 2) + std::pow(w[1] - axis[1], 2) + std::pow(w[2] - axis[2], 2)) /
@@ -114,7 +120,8 @@ TEST(BinIntegrals, AddUpToOneForLobesFromWideToNarrow) {
   // k = 2/α²: 2e6 is about as narrow as GGX with α = 1e-3.
   for (const double k : {0.1, 10.0, 1e4, 2e6}) {
     for (const Vec3& axis : {Vec3{0, 0, 1}, Vec3{0.6, 0, 0.8}, Vec3{-0.28, 0.96, 0}}) {
-      const BinnedPair binned(lobe(k, axis), 12, 2.5e-5, 1);
+      const SamplingPair pair = lobe(k, axis);
+      const BinnedPair binned(pair, 4096, 2.5e-5, 1);
       EXPECT_LE(binned.expected().total_error, 5e-5) << k;
       EXPECT_NEAR(binned.expected().total, 1, 5e-5) << k;
     }
@@ -122,7 +129,8 @@ TEST(BinIntegrals, AddUpToOneForLobesFromWideToNarrow) {
 }
 
 TEST(BinIntegrals, GiveEachBinAboutTheSameMass) {
-  const BinnedPair binned(lobe(2e6, {0.6, 0, 0.8}), 12, 2.5e-5, 1);
+  const SamplingPair pair = lobe(2e6, {0.6, 0, 0.8});
+  const BinnedPair binned(pair, 4096, 2.5e-5, 1);
   int far_off = 0;
   for (const double mass : binned.expected().value) {
     far_off += mass * 4096 < 0.2 || mass * 4096 > 5 ? 1 : 0;

@@ -120,6 +120,10 @@ void add_clusters(std::vector<Point2>& points, const Cell& whole, std::vector<Ce
   }
   const auto cut =
       std::partition(begin, end, [&](const Point2& p) { return p[gap.dimension] < gap.middle; });
+  if (cut == begin || cut == end) {  // neighbouring numbers: no room for a cut
+    add_cells(points, whole, cells);
+    return;
+  }
   Cell low = whole, high = whole;
   low.last = high.first = static_cast<std::size_t>(cut - points.begin());
   low.box.high[gap.dimension] = high.box.low[gap.dimension] = gap.middle;
@@ -129,8 +133,9 @@ void add_clusters(std::vector<Point2>& points, const Cell& whole, std::vector<Ce
 
 }  // namespace
 
-BinTree::BinTree(std::vector<Point2>& points, int depth)
+BinTree::BinTree(std::vector<Point2>& points, int depth, int dimension)
     : depth_(depth),
+      dimension_(dimension),
       splits_(std::size_t{1} << depth),
       boxes_(std::size_t{1} << depth),
       first_((std::size_t{1} << depth) + 1, points.size()) {
@@ -144,7 +149,7 @@ void BinTree::build(std::vector<Point2>& points, std::size_t first, std::size_t 
     first_[node - bins()] = first;
     return;
   }
-  const std::size_t d = static_cast<std::size_t>(level & 1);
+  const std::size_t d = cut_dimension(level);
   const std::size_t middle = first + (last - first) / 2;
   double split = (box.low[d] + box.high[d]) / 2;
   if (first < last) {

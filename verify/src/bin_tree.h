@@ -14,7 +14,8 @@ class BinTree {
  public:
   /// @param points  pilot samples; reordered so that each cell's are in a row
   /// @param depth   2^depth finest bins
-  BinTree(std::vector<Point2>& points, int depth);
+  /// @param dimension  1: only the first coordinate is cut
+  BinTree(std::vector<Point2>& points, int depth, int dimension);
 
   int depth() const { return depth_; }
   std::size_t bins() const { return std::size_t{1} << depth_; }
@@ -23,7 +24,7 @@ class BinTree {
   std::size_t locate(const Point2& p) const {
     std::size_t node = 1;
     for (int d = 0; d < depth_; ++d) {
-      node = 2 * node + (p[static_cast<std::size_t>(d & 1)] < splits_[node] ? 0 : 1);
+      node = 2 * node + (p[cut_dimension(d)] < splits_[node] ? 0 : 1);
     }
     return node - bins();
   }
@@ -39,9 +40,12 @@ class BinTree {
                                std::vector<Cell>& cells) const;
 
  private:
+  std::size_t cut_dimension(int level) const {
+    return dimension_ == 1 ? 0 : static_cast<std::size_t>(level & 1);
+  }
   void build(std::vector<Point2>& points, std::size_t first, std::size_t last, std::size_t node,
              int level, const Box& box);
-  int depth_;
+  int depth_, dimension_;
   std::vector<double> splits_;  // heap order, root at 1
   std::vector<Box> boxes_;
   std::vector<std::size_t> first_;  // of a bin's points; one more than bins

@@ -1,5 +1,6 @@
 #include "binned_pair.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,84 +12,149 @@ constexpr std::size_t kPilotsPerBin = 16;
 constexpr std::uint64_t kMaxEvaluations = 6'000'000;
 // A float direction that rounding put outside the support is within a few 2^-24 of it.
 constexpr double kRoundingDistance = 2e-6;
+// Farther than this from the domain is not rounding either.
+constexpr double kOutside = 1e-4;
+constexpr std::size_t kStraysKept = 64;
+constexpr std::size_t kMostAtoms = 64;
 
 bool finite(const Vec3& x) {
   return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
 }
 
-std::vector<Point2> draw_pilot(const ChartedPair& pair, std::size_t count, std::uint64_t seed) {
+bool same_point(const Vec3& a, const Vec3& b) {
+  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])}) <= 1e-5;
+}
+
+std::vector<Point2> draw_pilot(const SamplingPair& pair, std::size_t count, std::uint64_t seed) {
   Random random(seed, 1);
   std::vector<Point2> points;
   points.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto x = pair.sample(random);
-    if (x && finite(*x)) points.push_back(pair.chart->to_square(*x));
+    const auto s = pair.next(random);
+    if (s && s->mass == 0 && finite(s->x)) points.push_back(pair.domain.chart().to_square(s->x));
   }
   return points;
 }
 
+int log2_of(std::size_t bins) {
+  int depth = 0;
+  while ((std::size_t{1} << depth) < bins) ++depth;
+  return depth;
+}
+
 }  // namespace
 
-BinnedPair::BinnedPair(const ChartedPair& pair, int depth, double mass_error, std::uint64_t seed)
+BinnedPair::BinnedPair(const SamplingPair& pair, int finest_bins, double mass_error,
+                       std::uint64_t seed)
     : pair_(pair),
       random_(seed, 2),
-      pilot_(draw_pilot(pair, kPilotsPerBin << depth, seed)),
-      tree_(pilot_, depth) {
-  const double measure = pair.chart->measure();
+      depth_(log2_of(pair.domain.size() > 0 ? pair.domain.size()
+                                            : static_cast<std::size_t>(finest_bins))) {
+  if (pair.domain.size() > 0) {
+    tabulate_discrete();
+  } else {
+    integrate_density(mass_error, seed);
+  }
+  counts_.bins.assign(std::size_t{1} << depth_, 0);
+  for (const Atom& atom : pair.atoms) counts_.atoms.push_back({atom, 0});
+}
+
+void BinnedPair::tabulate_discrete() {
+  expected_.value.assign(std::size_t{1} << depth_, 0.0);
+  expected_.error.assign(std::size_t{1} << depth_, 0.0);
+  for (std::size_t i = 0; i < pair_.domain.size(); ++i) {
+    const double probability = pair_.pdf({static_cast<double>(i), 0, 0});
+    expected_.value[i] = probability;
+    expected_.total += probability;
+    expected_.finite = expected_.finite && std::isfinite(probability) && probability >= 0;
+  }
+  expected_.total_error = static_cast<double>(pair_.domain.size()) * pair_.epsilon;
+  expected_.evaluations = pair_.domain.size();
+}
+
+void BinnedPair::integrate_density(double mass_error, std::uint64_t seed) {
+  std::vector<Point2> pilot = draw_pilot(pair_, kPilotsPerBin << depth_, seed);
+  tree_.emplace(pilot, depth_, pair_.domain.dimension());
+  const Chart& chart = pair_.domain.chart();
   const auto density = [&](const Point2& p) {
-    return measure * pair.density(pair.chart->from_square(p));
+    return chart.element(p) * pair_.pdf(chart.from_square(p));
   };
   std::vector<Cell> cells;
-  for (std::size_t bin = 0; bin < tree_.bins(); ++bin) {
-    if (shows_zero(density, tree_.box(bin))) {
-      tree_.add_cells_around_points(bin, pilot_, cells);
+  for (std::size_t bin = 0; bin < tree_->bins(); ++bin) {
+    if (shows_zero(density, tree_->box(bin))) {
+      tree_->add_cells_around_points(bin, pilot, cells);
     } else {
-      cells.push_back(tree_.cell(bin));
+      cells.push_back(tree_->cell(bin));
     }
   }
-  expected_ = integrate(density, cells, pilot_, tree_.bins(), mass_error, kMaxEvaluations);
-  counts_.bins.assign(tree_.bins(), 0);
+  expected_ = integrate(density, cells, pilot, tree_->bins(), mass_error, kMaxEvaluations);
 }
 
 void BinnedPair::draw(std::uint64_t count) {
   for (std::uint64_t i = 0; i < count; ++i) {
-    const auto x = pair_.sample(random_);
-    if (x) {
-      classify(*x);
-    } else {
+    const auto sample = pair_.next(random_);
+    if (!sample) {
       ++counts_.rejected;
+    } else if (sample->mass > 0) {
+      count_atom(*sample);
+    } else {
+      count_point(sample->x);
     }
   }
   counts_.drawn += count;
 }
 
-void BinnedPair::classify(const Vec3& x) {
-  const double density = finite(x) ? pair_.density(x) : -1;
+void BinnedPair::count_atom(const PairSample& sample) {
+  for (AtomCount& a : counts_.atoms) {
+    if (same_point(a.atom.x, sample.x)) {
+      ++a.drawn;
+      return;
+    }
+  }
+  if (counts_.atoms.size() < kMostAtoms) {
+    counts_.atoms.push_back({{sample.x, sample.mass}, 1});
+  } else {
+    ++counts_.stray;
+  }
+}
+
+bool BinnedPair::is_stray(const Vec3& x) const {
+  if (!tree_) return true;
+  for (int k = 0; k < 8; ++k) {
+    const double angle = k * std::numbers::pi / 4;
+    if (pair_.pdf(pair_.domain.chart().near(x, kRoundingDistance, angle)) > 0) return false;
+  }
+  return true;
+}
+
+void BinnedPair::count_point(const Vec3& x) {
+  const double density = finite(x) ? pair_.pdf(x) : -1;
   if (!(density >= 0) || std::isinf(density)) {
     ++counts_.not_finite;
     counts_.not_finite_at = x;
     return;
   }
-  if (density == 0) {
-    bool near_support = false;
-    for (int k = 0; k < 8 && !near_support; ++k) {
-      const double angle = k * std::numbers::pi / 4;
-      near_support = pair_.density(pair_.chart->near(x, kRoundingDistance, angle)) > 0;
-    }
-    if (!near_support) {
-      ++counts_.stray;
-      counts_.stray_at = x;
-    }
+  const bool inside = tree_ ? pair_.domain.chart().distance(x) <= kOutside
+                            : x[0] >= 0 && x[0] < static_cast<double>(pair_.domain.size());
+  if (!inside || (density == 0 && is_stray(x))) {
+    ++counts_.stray;
+    if (counts_.strays.size() < kStraysKept) counts_.strays.push_back(x);
   }
-  ++counts_.bins[tree_.locate(pair_.chart->to_square(x))];
+  if (inside) ++counts_.bins[locate(x)];
+}
+
+std::size_t BinnedPair::locate(const Vec3& x) const {
+  return tree_ ? tree_->locate(pair_.domain.chart().to_square(x)) : static_cast<std::size_t>(x[0]);
 }
 
 Vec3 BinnedPair::center(int depth, std::size_t bin) const {
   // The finest bin in the middle of the coarser one's range stands for it.
-  const int finer = tree_.depth() - depth;
+  const int finer = depth_ - depth;
   const std::size_t fine = (bin << finer) + ((std::size_t{1} << finer) >> 1);
-  const Box& box = tree_.box(fine);
-  return pair_.chart->from_square({(box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2});
+  if (!tree_) return {static_cast<double>(fine), 0, 0};
+  const Box& box = tree_->box(fine);
+  return pair_.domain.chart().from_square(
+      {(box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2});
 }
 
 }  // namespace plumbline::verify

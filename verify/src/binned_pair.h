@@ -1,50 +1,48 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include <plumbline/verify/random.h>
-#include <plumbline/verify/vector_access.h>
+#include <plumbline/verify/sampling_pair.h>
 
 #include "bin_tree.h"
-#include "chart.h"
 #include "cubature.h"
 
 /// A sampling pair cut into bins: what the pdf expects of each, and what the sampler put there.
 namespace plumbline::verify {
 
-struct ChartedPair {
-  const Chart* chart = nullptr;
-  std::function<std::optional<Vec3>(Random&)> sample;
-  std::function<double(const Vec3&)> density;  ///< over the domain's measure
+struct AtomCount {
+  Atom atom;
+  std::uint64_t drawn = 0;
 };
 
 struct BinCounts {
   std::vector<std::uint64_t> bins;
+  std::vector<AtomCount> atoms;  ///< those of the pair, then those met on the way
   std::uint64_t rejected = 0;
-  std::uint64_t stray = 0;  ///< samples where the density is 0, also all around
+  std::uint64_t stray = 0;  ///< samples outside the domain or where the density is 0 all around
   std::uint64_t not_finite =
       0;  ///< samples or densities at samples that are not finite, or negative
   std::uint64_t drawn = 0;
-  std::optional<Vec3> stray_at, not_finite_at;  ///< an example of each
+  std::vector<Vec3> strays;           ///< the first of them
+  std::optional<Vec3> not_finite_at;  ///< an example
 };
 
 class BinnedPair {
  public:
   /// Draws pilot samples, cuts the domain where they fall, and integrates the density over each
-  /// bin.
+  /// bin. The bins of a discrete set are its points.
   ///
-  /// @param depth        2^depth finest bins
+  /// @param finest_bins  about how many
   /// @param mass_error   error of the total mass to reach
-  BinnedPair(const ChartedPair& pair, int depth, double mass_error, std::uint64_t seed);
+  BinnedPair(const SamplingPair& pair, int finest_bins, double mass_error, std::uint64_t seed);
 
   /// Draws more samples and counts them.
   void draw(std::uint64_t count);
 
-  int depth() const { return tree_.depth(); }
+  const SamplingPair& pair() const { return pair_; }
+  int depth() const { return depth_; }  ///< 2^depth finest bins; merged in pairs, coarser ones
   const CubatureResult& expected() const { return expected_; }  ///< mass per finest bin
   const BinCounts& counts() const { return counts_; }
 
@@ -52,12 +50,17 @@ class BinnedPair {
   Vec3 center(int depth, std::size_t bin) const;
 
  private:
-  void classify(const Vec3& x);
+  void integrate_density(double mass_error, std::uint64_t seed);
+  void tabulate_discrete();
+  void count_atom(const PairSample& sample);
+  void count_point(const Vec3& x);
+  std::size_t locate(const Vec3& x) const;
+  bool is_stray(const Vec3& x) const;
 
-  const ChartedPair& pair_;
+  const SamplingPair& pair_;
   Random random_;
-  std::vector<Point2> pilot_;
-  BinTree tree_;
+  int depth_;
+  std::optional<BinTree> tree_;
   CubatureResult expected_;
   BinCounts counts_;
 };

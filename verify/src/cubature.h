@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "chart.h"
+#include <plumbline/verify/domain.h>
 
 namespace plumbline::verify {
 
@@ -36,8 +36,8 @@ struct CubatureResult {
   double total = 0;
 
   /// Of `total`: 2 √Σe² + Σe/20 over the cells. Where the integrand is smooth the true error is
-  /// far below a twentieth of the rule's estimate e; at edges of the support it is about e with random
-  /// sign.
+  /// far below a twentieth of the rule's estimate e; at edges of the support it is about e with
+  /// random sign.
   double total_error = 0;
   std::uint64_t evaluations = 0;
   bool finite = true;  ///< every value of the integrand was

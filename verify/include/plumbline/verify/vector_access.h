@@ -72,4 +72,61 @@ V from_vec3(const Vec3& v) {
   }
 }
 
+/// Points of any domain: a number, two or three components.
+template <class P>
+concept HasXy = requires(const P& p) {
+  static_cast<double>(p.x);
+  static_cast<double>(p.y);
+};
+
+namespace detail {
+
+template <class P>
+auto point_scalar(const P& p) {
+  if constexpr (std::is_arithmetic_v<P>) {
+    return p;
+  } else if constexpr (HasXy<P>) {
+    return p.x;
+  } else {
+    return p[0];
+  }
+}
+
+}  // namespace detail
+
+/// Scalar that a point is made of; an index of a discrete set counts as float.
+template <class P>
+using PointScalar = std::conditional_t<
+    std::is_integral_v<P>, float,
+    std::remove_cvref_t<decltype(detail::point_scalar(std::declval<const P&>()))>>;
+
+template <class P>
+Vec3 to_point(const P& p) {
+  if constexpr (std::is_arithmetic_v<P>) {
+    return {static_cast<double>(p), 0, 0};
+  } else if constexpr (Vector3<P>) {
+    return to_vec3(p);
+  } else {
+    return {static_cast<double>(p.x), static_cast<double>(p.y), 0};
+  }
+}
+
+template <class P>
+P from_point(const Vec3& x) {
+  if constexpr (std::is_arithmetic_v<P>) {
+    return static_cast<P>(x[0]);
+  } else if constexpr (Vector3<P>) {
+    return from_vec3<P>(x);
+  } else {
+    using T = PointScalar<P>;
+    if constexpr (requires { P{T{}, T{}}; }) {
+      return P{static_cast<T>(x[0]), static_cast<T>(x[1])};
+    } else {
+      P p;
+      p.x = static_cast<T>(x[0]), p.y = static_cast<T>(x[1]);
+      return p;
+    }
+  }
+}
+
 }  // namespace plumbline::verify

@@ -1,0 +1,152 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <plumbline/verify/domain.h>
+#include <plumbline/verify/random.h>
+#include <plumbline/verify/result.h>
+#include <plumbline/verify/vector_access.h>
+
+namespace plumbline::verify {
+
+/// Random numbers of one sample, in [0, 1): as many as the pair says it uses.
+using Uniforms = std::array<double, 3>;
+
+/// A colour or spectrum as the checks keep it; a spectrum of more than 8 bands is thinned out to 8.
+struct Channels {
+  static constexpr std::size_t kMost = 8;
+  std::size_t count = 0;
+  std::array<double, kMost> value{};
+
+  double operator[](std::size_t i) const { return value[i]; }
+  friend bool operator==(const Channels&, const Channels&) = default;
+};
+
+/// What a sampler returned.
+struct PairSample {
+  Vec3 x{};                     ///< the point
+  double pdf = kNotApplicable;  ///< density that the record states; NaN: it states none
+  double mass = 0;              ///< > 0: an atom with this probability, not a point of a density
+  Channels weight;              ///< value/pdf that the record states; empty: it states none
+};
+
+/// One lobe of a mixture, as if it were the whole: with probability `probability` the sampler draws
+/// from it, so that pdf = Σ probability · lobe pdf.
+struct PairLobe {
+  std::string name;
+  double probability = 1;
+  std::function<std::optional<PairSample>(const Uniforms&)> sample;
+  std::function<double(const Vec3&)> pdf;
+};
+
+/// A point with probability mass.
+struct Atom {
+  Vec3 x{};
+  double mass = 0;
+};
+
+/// Something that a wrong pdf may have lost or gained as a factor, for the diagnosis: "cosθ at the
+/// light", "G1". Its inverse and its square are suspected too.
+struct Suspect {
+  std::string name;
+  std::function<double(const Vec3&)> value;
+  std::string remark_if_inverse = {};  ///< in place of "factor … too many in pdf?"
+  bool as_is = false;  ///< the ratio itself, not a factor; the remark then says what it means
+};
+
+/// `sample` with its `pdf` over a domain: what the contract checks are about. BSDFs, lights, light
+/// selection, warps and phase functions are all brought into this form.
+struct SamplingPair {
+  std::string name;
+  Domain domain = Domain::sphere();
+
+  /// How many of the uniform numbers the map uses: the Jacobian needs as many as the domain has
+  /// dimensions.
+  int numbers = 2;
+
+  /// Rounding unit of the code under test: 2^-24 for float, 2^-53 for double. Decides which uniform
+  /// numbers it gets and how closely it can be expected to agree with itself.
+  double epsilon = 0x1p-53;
+
+  /// nullopt: the sample was rejected.
+  std::function<std::optional<PairSample>(const Uniforms&)> sample;
+
+  /// In place of `sample`, for code that takes a random generator. The Jacobian is skipped then.
+  std::function<std::optional<PairSample>(Random&)> draw;
+
+  std::function<double(const Vec3&)> pdf;
+
+  /// What weight · pdf must equal: f·|cosθ| of a BSDF. Empty where the pair has no weight.
+  std::function<Channels(const Vec3&)> value;
+
+  std::vector<PairLobe> lobes;  ///< of a mixture; empty: one smooth map
+
+  /// Several u lead to the same point. With `preimages` the Jacobian check sums over them; without,
+  /// and without lobes, it is skipped, and says so.
+  bool many_to_one = false;
+  std::function<std::vector<Uniforms>(const Vec3&)> preimages;
+
+  std::vector<Atom> atoms;  ///< that are known beforehand; others are taken from the records
+
+  std::vector<Suspect> suspects;
+
+  /// One sample from the generator, by whichever of `sample` and `draw` there is.
+  std::optional<PairSample> next(Random& random) const;
+};
+
+namespace detail {
+
+template <class P>
+std::optional<PairSample> to_pair_sample(const P& point) {
+  PairSample s;
+  s.x = to_point(point);
+  return s;
+}
+
+template <class P>
+std::optional<PairSample> to_pair_sample(const std::optional<P>& point) {
+  if (!point) return std::nullopt;
+  return to_pair_sample(*point);
+}
+
+}  // namespace detail
+
+/// A pair from a plain map and its density, for warps and the like.
+///
+/// @tparam Point   of the user: a number, or a vector with x, y (, z) or operator[]
+/// @param sample   one or two uniform numbers of the point's scalar type, or a Random&, to a point
+/// or an
+///                 optional point
+/// @param pdf      of a point
+template <class Point, class Sample, class Pdf>
+SamplingPair make_pair(std::string name, Domain domain, Sample sample, Pdf pdf) {
+  using T = PointScalar<Point>;
+  SamplingPair pair;
+  pair.name = std::move(name);
+  pair.domain = std::move(domain);
+  pair.epsilon = std::is_same_v<T, float> ? 0x1p-24 : 0x1p-53;
+  if constexpr (requires(Random & random) { sample(random); }) {
+    pair.draw = [sample](Random& random) { return detail::to_pair_sample(sample(random)); };
+  } else if constexpr (requires(T u) { sample(u, u); }) {
+    pair.sample = [sample](const Uniforms& u) {
+      return detail::to_pair_sample(sample(static_cast<T>(u[0]), static_cast<T>(u[1])));
+    };
+  } else {
+    pair.numbers = 1;
+    pair.sample = [sample](const Uniforms& u) {
+      return detail::to_pair_sample(sample(static_cast<T>(u[0])));
+    };
+  }
+  pair.pdf = [pdf](const Vec3& x) { return static_cast<double>(pdf(from_point<Point>(x))); };
+  return pair;
+}
+
+}  // namespace plumbline::verify
