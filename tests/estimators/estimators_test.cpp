@@ -1,6 +1,9 @@
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -283,22 +286,34 @@ struct Rejecting {
 
 TEST(Estimators, RejectedSamplesCountAsZero) {
   const Rejecting problem;
-  const Numbers counts = {2, 1};
-  verify::MeanOptions options;
-  options.subject = "rejecting technique/multi-sample";
-  options.reference = 1;
-  options.tolerance = 0.01;
-  options.max_samples = 1 << 20;
-  options.seed = check_seed(options.subject);
-  verify::Random random(options.seed);
-  Uniform<double> uniform(random);
-  expect_verdict(verify::check_mean(options, [&](std::uint64_t, std::uint64_t count) {
-    Moments moments;
-    for (std::uint64_t k = 0; k < count; ++k) {
-      moments.add(renderer::multi_sample(problem, Heuristic::balance, View(counts), uniform));
-    }
-    return moments;
-  }));
+  const Numbers counts = {2, 1}, shares = {0.5, 0.5};
+  const std::vector<std::pair<std::string, std::function<double(Uniform<double>&)>>> estimators = {
+      {"multi-sample",
+       [&](Uniform<double>& u) {
+         return renderer::multi_sample(problem, Heuristic::balance, View(counts), u);
+       }},
+      {"one-sample",
+       [&](Uniform<double>& u) {
+         return renderer::one_sample(problem, Heuristic::balance, View(shares), u);
+       }},
+      {"coin flip", [&](Uniform<double>& u) { return renderer::coin_flip(problem, u); }},
+      {"second technique alone",
+       [&](Uniform<double>& u) { return renderer::single(problem, 1, u); }}};
+  for (const auto& [name, estimate] : estimators) {
+    verify::MeanOptions options;
+    options.subject = "rejecting technique/" + name;
+    options.reference = 1;
+    options.tolerance = 0.02;
+    options.max_samples = 1 << 20;
+    options.seed = check_seed(options.subject);
+    verify::Random random(options.seed);
+    Uniform<double> uniform(random);
+    expect_verdict(verify::check_mean(options, [&](std::uint64_t, std::uint64_t count) {
+      Moments moments;
+      for (std::uint64_t k = 0; k < count; ++k) moments.add(estimate(uniform));
+      return moments;
+    }));
+  }
 }
 
 }  // namespace
