@@ -299,9 +299,9 @@ TEST(Estimators, RejectedSamplesCountAsZero) {
       {"coin flip", [&](Uniform<double>& u) { return renderer::coin_flip(problem, u); }},
       {"second technique alone",
        [&](Uniform<double>& u) { return renderer::single(problem, 1, u); }}};
-  for (const auto& [name, estimate] : estimators) {
+  for (const auto& estimator : estimators) {
     verify::MeanOptions options;
-    options.subject = "rejecting technique/" + name;
+    options.subject = "rejecting technique/" + estimator.first;
     options.reference = 1;
     options.tolerance = 0.02;
     options.max_samples = 1 << 20;
@@ -310,7 +310,7 @@ TEST(Estimators, RejectedSamplesCountAsZero) {
     Uniform<double> uniform(random);
     expect_verdict(verify::check_mean(options, [&](std::uint64_t, std::uint64_t count) {
       Moments moments;
-      for (std::uint64_t k = 0; k < count; ++k) moments.add(estimate(uniform));
+      for (std::uint64_t k = 0; k < count; ++k) moments.add(estimator.second(uniform));
       return moments;
     }));
   }
