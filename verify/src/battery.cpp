@@ -22,7 +22,6 @@ RatioEvidence bin_evidence(const BinnedPair& binned) {
   constexpr double kCountsPerBin = 100;
   RatioEvidence e;
   e.quotient = "observed/expected";
-  e.numerator = "sampler";
   e.denominator = "pdf";
   const double n = static_cast<double>(binned.counts().drawn);
   e.strays = binned.counts().strays;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -16,6 +18,11 @@ namespace {
 constexpr double kGoodFit = 0.9;
 // A factor on top of a suspect must earn itself.
 constexpr double kFreeFactorPenalty = 0.02;
+constexpr double kUnnamedPenalty = 0.002;
+// Of fits as good as each other the first stands.
+constexpr double kTie = 1e-4;
+// From this share on, samples where the pdf is 0 say more than the ratio elsewhere.
+constexpr double kManyStrays = 0.2;
 constexpr std::size_t kEnoughPoints = 8;
 
 constexpr double kPi = std::numbers::pi;
@@ -25,6 +32,8 @@ struct Hypothesis {
   std::string formula;  // of the ratio
   std::string remark;
   std::function<double(const Vec3&)> ratio;
+  /// If any: which of these comes closest is the ratio at a point.
+  std::vector<std::function<double(const Vec3&)>> either = {};
 };
 
 struct Constant {
@@ -62,18 +71,12 @@ class Fitter {
   /// Noise expected in the sum of squares, per free number fitted.
   double explainable() const { return total_ - noise2_ * static_cast<double>(points_.size()); }
 
-  double mean_log() const {
-    double sum = 0;
-    for (const RatioPoint& p : points_) sum += p.weight * std::log(p.ratio);
-    return sum / weights_;
-  }
-
-  std::optional<Fit> fit(const std::function<double(const Vec3&)>& ratio, bool free_factor) const {
+  std::optional<Fit> fit(const Hypothesis& hypothesis, bool free_factor) const {
     std::vector<double> rest;
     rest.reserve(points_.size());
     double mean = 0;
     for (const RatioPoint& p : points_) {
-      const double model = ratio(p.x);
+      const double model = closest(hypothesis, p);
       if (!(model > 0) || !std::isfinite(model)) return std::nullopt;
       rest.push_back(std::log(p.ratio) - std::log(model));
       mean += p.weight * rest.back() / weights_;
@@ -90,6 +93,20 @@ class Fitter {
   }
 
  private:
+  static double closest(const Hypothesis& hypothesis, const RatioPoint& p) {
+    if (hypothesis.either.empty()) return hypothesis.ratio(p.x);
+    double best = 0, distance = std::numeric_limits<double>::infinity();
+    for (const auto& ratio : hypothesis.either) {
+      const double value = ratio(p.x);
+      const double d = std::abs(std::log(value / p.ratio));
+      if (d < distance) {
+        best = value;
+        distance = d;
+      }
+    }
+    return best;
+  }
+
   double noise2_;
   std::vector<RatioPoint> points_;
   double total_ = 0, weights_ = 0;
@@ -135,22 +152,36 @@ void add_mirrored(std::vector<Hypothesis>& list, const SamplingPair& pair) {
                   }});
 }
 
+double sum_of_lobes(const SamplingPair& pair, const Vec3& x, bool with_probability) {
+  double sum = 0;
+  for (const PairLobe& lobe : pair.lobes) {
+    sum += (with_probability ? lobe.probability : 1.0) * lobe.pdf(x);
+  }
+  return sum;
+}
+
 void add_lobes(std::vector<Hypothesis>& list, const SamplingPair& pair) {
-  list.push_back({"(Σ lobe pdf)/pdf", "lobe probabilities missing?", [&pair](const Vec3& x) {
-                    double sum = 0;
-                    for (const PairLobe& lobe : pair.lobes) sum += lobe.pdf(x);
-                    return sum / pair.pdf(x);
-                  }});
-  list.push_back({"(Σ P·lobe pdf)/pdf", "lobe probabilities wrong in pdf?", [&pair](const Vec3& x) {
-                    double sum = 0;
-                    for (const PairLobe& lobe : pair.lobes) sum += lobe.probability * lobe.pdf(x);
-                    return sum / pair.pdf(x);
-                  }});
+  list.push_back(
+      {"(Σ P·lobe pdf)/(Σ lobe pdf)", "lobe probability missing from pdf?", [&pair](const Vec3& x) {
+         return sum_of_lobes(pair, x, true) / sum_of_lobes(pair, x, false);
+       }});
+  list.push_back({"(Σ P·lobe pdf)/pdf", "lobe probabilities wrong in pdf?",
+                  [&pair](const Vec3& x) { return sum_of_lobes(pair, x, true) / pair.pdf(x); }});
+  Hypothesis alone{"lobe pdf/pdf", "pdf of the chosen lobe in the place of the mixture's?", {}, {}};
+  Hypothesis share{"P·lobe pdf/pdf", "one lobe's part over the pdf of the whole mixture?", {}, {}};
+  for (const PairLobe& lobe : pair.lobes) {
+    alone.either.push_back([&](const Vec3& x) { return lobe.pdf(x) / pair.pdf(x); });
+    share.either.push_back(
+        [&](const Vec3& x) { return lobe.probability * lobe.pdf(x) / pair.pdf(x); });
+  }
+  list.push_back(std::move(alone));
+  list.push_back(std::move(share));
 }
 
 std::vector<Hypothesis> hypotheses(const SamplingPair& pair, const RatioEvidence& e) {
   std::vector<Hypothesis> list;
   for (const Suspect& s : pair.suspects) {
+    if (!s.only_of.empty() && s.only_of != e.denominator) continue;
     if (s.as_is) {
       list.push_back({s.name, s.remark_if_inverse, s.value});
     } else {
@@ -158,8 +189,8 @@ std::vector<Hypothesis> hypotheses(const SamplingPair& pair, const RatioEvidence
     }
   }
   if (pair.domain.directions()) {
-    add_factor(list, e, {"cosθ", [](const Vec3& w) { return std::abs(w[2]); }, {}, false});
-    add_factor(list, e, {"sinθ", [](const Vec3& w) { return std::hypot(w[0], w[1]); }, {}, false});
+    add_factor(list, e, {"cosθ", [](const Vec3& w) { return std::abs(w[2]); }});
+    add_factor(list, e, {"sinθ", [](const Vec3& w) { return std::hypot(w[0], w[1]); }});
     add_mirrored(list, pair);
   }
   if (!pair.lobes.empty()) add_lobes(list, pair);
@@ -172,25 +203,32 @@ std::string describe_fit(const std::string& formula, double r_squared, const std
   return formula + " (R² " + fit + "): " + remark;
 }
 
-/// A constant factor fits only if it is not 1 and the ratio does not vary.
+/// A constant factor; one without a name must fit better than what has one.
 void consider_constant(const Fitter& fitter, const RatioEvidence& e, Diagnosis& best) {
-  const auto fit = fitter.fit([](const Vec3&) { return 1.0; }, true);
-  if (!fit || !(fit->r_squared > best.r_squared + 1e-9)) return;
+  const Hypothesis one{"1", {}, [](const Vec3&) { return 1.0; }};
+  const auto fit = fitter.fit(one, true);
+  if (!fit) return;
   const std::string factor = name_constant(std::exp(fit->log_factor));
-  best.r_squared = fit->r_squared;
+  const double penalty = factor.find('.') == std::string::npos ? 0 : kUnnamedPenalty;
+  if (!(fit->r_squared - penalty > best.r_squared)) return;
+  best.r_squared = fit->r_squared - penalty;
+  best.constant = std::exp(fit->log_factor);
   best.text = describe_fit(e.quotient + " = " + factor, fit->r_squared,
                            "constant factor " + factor + " missing from " + e.denominator + "?");
 }
 
 void consider(const Fitter& fitter, const RatioEvidence& e, const Hypothesis& h, Diagnosis& best) {
-  const auto plain = fitter.fit(h.ratio, false);
-  if (plain && plain->r_squared > best.r_squared) {
+  const auto plain = fitter.fit(h, false);
+  if (plain && plain->r_squared > best.r_squared + kTie) {
     best.r_squared = plain->r_squared;
+    best.constant = kNotApplicable;
     best.text = describe_fit(e.quotient + " = " + h.formula, plain->r_squared, h.remark);
   }
-  const auto scaled = fitter.fit(h.ratio, true);
-  if (scaled && scaled->r_squared - kFreeFactorPenalty > best.r_squared) {
+  if (!h.either.empty()) return;
+  const auto scaled = fitter.fit(h, true);
+  if (scaled && scaled->r_squared - kFreeFactorPenalty > best.r_squared + kTie) {
     best.r_squared = scaled->r_squared - kFreeFactorPenalty;
+    best.constant = kNotApplicable;
     best.text = describe_fit(
         e.quotient + " = " + name_constant(std::exp(scaled->log_factor)) + " · " + h.formula,
         scaled->r_squared, h.remark + " And a constant factor?");
@@ -231,11 +269,13 @@ Diagnosis diagnose(const SamplingPair& pair, const RatioEvidence& evidence) {
   best.r_squared = kGoodFit;
   const Fitter fitter(evidence, std::move(usable));
   if (fitter.size() >= kEnoughPoints && fitter.explainable() > 0) {
-    consider_constant(fitter, evidence, best);
     for (const Hypothesis& h : hypotheses(pair, evidence)) consider(fitter, evidence, h, best);
+    consider_constant(fitter, evidence, best);
   }
   const Diagnosis strays = diagnose_strays(pair, evidence);
-  if (best.text.empty() && !strays.text.empty()) return strays;
+  if (!strays.text.empty() && (best.text.empty() || evidence.stray_share > kManyStrays)) {
+    return strays;
+  }
   return best.text.empty() ? Diagnosis{} : best;
 }
 

@@ -18,8 +18,8 @@ struct RatioPoint {
 
 /// What a check found: in words what is over what, the ratio, and samples that no pdf expected.
 struct RatioEvidence {
-  std::string quotient;                ///< "observed/expected"
-  std::string numerator, denominator;  ///< of a remark: "sampler", "pdf"
+  std::string quotient;     ///< "observed/expected"
+  std::string denominator;  ///< that a remark blames: "pdf"
   std::vector<RatioPoint> points;
   double noise = 0;          ///< of a logarithm at weight 1, standard deviation; 0: none
   std::vector<Vec3> strays;  ///< samples where the pdf is 0
@@ -30,6 +30,7 @@ struct RatioEvidence {
 struct Diagnosis {
   std::string text;
   double r_squared = 0;
+  double constant = kNotApplicable;  ///< the ratio, if it is the same everywhere
 };
 
 /// The best of the usual suspects: constant factors, cosθ, sinθ, what the pair suspects itself (4

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "chi_square_look.h"
@@ -34,6 +35,11 @@ Vec3 combine(double a, const Vec3& x, double b, const Vec3& y) {
   return {a * x[0] + b * y[0], a * x[1] + b * y[1], a * x[2] + b * y[2]};
 }
 
+/// Largest coordinate that a difference subtracts, for its rounding error.
+double largest_coordinate(const Vec3& x) {
+  return std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
+}
+
 /// Central difference; steps are powers of two and u a multiple of 2^-20, so that u ± h is exact in
 /// float too.
 std::optional<Vec3> difference(const Map& map, Uniforms u, std::size_t d, double h) {
@@ -46,8 +52,10 @@ std::optional<Vec3> difference(const Map& map, Uniforms u, std::size_t d, double
   return combine(0.5 / h, above->x, -0.5 / h, below->x);
 }
 
-/// Ridders: differences at halved steps, extrapolated until the error grows again.
-std::optional<Derivative> derivative(const Map& map, const Uniforms& u, std::size_t d) {
+/// Ridders: differences at halved steps, extrapolated; the best is where neither the extrapolation
+/// nor rounding (`unit`: what each coordinate of the map is off by) leaves a larger error.
+std::optional<Derivative> derivative(const Map& map, const Uniforms& u, std::size_t d,
+                                     double unit) {
   constexpr int kSteps = 8;
   double h = std::exp2(std::floor(std::log2(std::min({0.0625, u[d] / 2, (1 - u[d]) / 2}))));
   std::array<std::array<Vec3, kSteps>, kSteps> table;
@@ -64,8 +72,9 @@ std::optional<Derivative> derivative(const Map& map, const Uniforms& u, std::siz
     for (std::size_t j = 1; j <= i; ++j, factor *= 4) {
       table[j][i] =
           combine(factor / (factor - 1), table[j - 1][i], -1 / (factor - 1), table[j - 1][i - 1]);
-      const double error = std::max(norm(combine(1, table[j][i], -1, table[j - 1][i])),
-                                    norm(combine(1, table[j][i], -1, table[j - 1][i - 1])));
+      const double error =
+          std::max({norm(combine(1, table[j][i], -1, table[j - 1][i])),
+                    norm(combine(1, table[j][i], -1, table[j - 1][i - 1])), 4 * unit / h});
       if (error <= best.error) best = {table[j][i], error};
     }
   }
@@ -78,14 +87,15 @@ struct Determinant {
   double relative_error = 0;
 };
 
-std::optional<Determinant> determinant(const Map& map, const Uniforms& u, int dimension) {
-  const auto du = derivative(map, u, 0);
+std::optional<Determinant> determinant(const Map& map, const Uniforms& u, int dimension,
+                                       double unit) {
+  const auto du = derivative(map, u, 0, unit);
   if (!du) return std::nullopt;
   if (dimension == 1) {
     const double length = norm(du->value);
     return Determinant{length, du->error / length};
   }
-  const auto dv = derivative(map, u, 1);
+  const auto dv = derivative(map, u, 1, unit);
   if (!dv) return std::nullopt;
   const Vec3& a = du->value;
   const Vec3& b = dv->value;
@@ -111,7 +121,6 @@ class Jacobian {
         random_(options.seed, 3),
         tolerance_(pair.epsilon > 0x1p-40 ? kFloatTolerance : kDoubleTolerance) {
     outcome_.evidence.quotient = "observed/expected";
-    outcome_.evidence.numerator = "sampler";
     outcome_.evidence.denominator = "pdf";
     CheckResult& r = outcome_.result;
     r.check = "jacobian";
@@ -129,8 +138,13 @@ class Jacobian {
       for (const PairLobe& lobe : pair_.lobes) {
         if (lobe.probability > 0) visit(lobe.sample, lobe.pdf, points);
       }
+      lobes_fail_ = failing_ > 0;
       check_mixture();
     }
+    outcome_.evidence.points =
+        pair_.lobes.empty() || lobes_fail_ ? std::move(of_lobes_) : std::move(of_mixture_);
+    outcome_.evidence.stray_share =
+        static_cast<double>(outcome_.evidence.strays.size()) / std::max(1.0, usable_);
     finish();
     return std::move(outcome_);
   }
@@ -155,13 +169,16 @@ class Jacobian {
         ++folds_;
         continue;
       }
-      count(sample->x, pdf(sample->x), *density);
+      count(sample->x, pdf(sample->x), *density, of_lobes_);
     }
   }
 
   /// 1/|∂x/∂u| as a density with its error.
   std::optional<Determinant> density_at(const Uniforms& u, const Map& map) const {
-    auto d = determinant(map, u, pair_.domain.dimension());
+    const auto sample = map(u);
+    if (!sample) return std::nullopt;
+    auto d = determinant(map, u, pair_.domain.dimension(),
+                         pair_.epsilon * largest_coordinate(sample->x));
     if (!d || !(d->value > 0)) return std::nullopt;
     d->value = 1 / d->value;
     return d;
@@ -178,10 +195,12 @@ class Jacobian {
     return sum;
   }
 
-  void count(const Vec3& x, double pdf, const Determinant& density) {
+  void count(const Vec3& x, double pdf, const Determinant& density,
+             std::vector<RatioPoint>& ratios) {
     ++usable_;
+    if (pdf == 0) outcome_.evidence.strays.push_back(x);
     const double error = std::abs(pdf / density.value - 1);
-    outcome_.evidence.points.push_back({x, density.value / pdf, 1});
+    ratios.push_back({x, density.value / pdf, 1});
     if (!(error <= worst_)) {
       worst_ = error;
       worst_at_ = x;
@@ -199,7 +218,7 @@ class Jacobian {
         double sum = 0;
         for (const PairLobe& l : pair_.lobes) sum += l.probability * l.pdf(sample->x);
         ++tried_;
-        count(sample->x, pair_.pdf(sample->x), {sum, 0});
+        count(sample->x, pair_.pdf(sample->x), {sum, 0}, of_mixture_);
       }
     }
   }
@@ -233,6 +252,8 @@ class Jacobian {
   double tried_ = 0, usable_ = 0, folds_ = 0, failing_ = 0;
   double worst_ = 0;
   Vec3 worst_at_{};
+  std::vector<RatioPoint> of_lobes_, of_mixture_;
+  bool lobes_fail_ = false;
 };
 
 }  // namespace

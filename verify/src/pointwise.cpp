@@ -23,9 +23,8 @@ class Property {
     outcome_.result.reference = 0;
   }
 
-  void quotient(const char* text, const char* numerator, const char* denominator) {
+  void quotient(const char* text, const char* denominator) {
     outcome_.evidence.quotient = text;
-    outcome_.evidence.numerator = numerator;
     outcome_.evidence.denominator = denominator;
   }
 
@@ -93,8 +92,8 @@ class Pointwise {
         support_(pair, options, "support"),
         finite_(pair, options, "finite"),
         discrete_(pair.domain.dimension() == 0) {
-    record_.quotient("record pdf/pdf()", "record", "pdf()");
-    weight_.quotient("weight·pdf/(f·|cosθ|)", "weight", "f·|cosθ|");
+    record_.quotient("record pdf/pdf()", "pdf()");
+    weight_.quotient("weight·pdf/(f·|cosθ|)", "f·|cosθ|");
   }
 
   std::vector<PointwiseOutcome> run(int points) {
@@ -178,6 +177,8 @@ class Pointwise {
     const double pdf = pair_.pdf(x);
     finite_.hold(pdf >= 0 && std::isfinite(pdf),
                  [&] { return "pdf is " + number(pdf) + " at " + where(); });
+    support_.hold(pdf > 0 || !(pdf == 0) || (!discrete_ && positive_near(x)),
+                  [&] { return "pdf is 0 at a sample, " + where(); });
     see_record(*sample, pdf, where);
     see_weight(*sample, pdf, where);
   }

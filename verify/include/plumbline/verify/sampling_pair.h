@@ -59,6 +59,7 @@ struct Suspect {
   std::string name;
   std::function<double(const Vec3&)> value;
   std::string remark_if_inverse = {};  ///< in place of "factor … too many in pdf?"
+  std::string only_of = {};            ///< "pdf" or "f·|cosθ|": of no use elsewhere
   bool as_is = false;  ///< the ratio itself, not a factor; the remark then says what it means
 };
 
