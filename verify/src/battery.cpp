@@ -7,6 +7,7 @@
 
 #include "binned_pair.h"
 #include "chi_square_look.h"
+#include "constant_diagnosis.h"
 #include "diagnosis.h"
 #include "integral_check.h"
 #include "jacobian.h"
@@ -47,7 +48,7 @@ class Cause {
     // Exact ratios come first and are not outdone by a fit to noise.
     if (!found.text.empty() && found.r_squared > best_.r_squared + 0.01) best_ = std::move(found);
   }
-  const std::string& text() const { return best_.text; }
+  const Diagnosis& best() const { return best_; }
 
  private:
   Diagnosis best_;
@@ -55,7 +56,7 @@ class Cause {
 
 }  // namespace
 
-std::vector<CheckResult> check_pair(const SamplingPair& pair, const ContractOptions& options) {
+PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options) {
   std::vector<CheckResult> results;
   Cause cause;
   for (PointwiseOutcome& outcome : judge_pointwise(pair, options)) {
@@ -74,9 +75,13 @@ std::vector<CheckResult> check_pair(const SamplingPair& pair, const ContractOpti
   results.push_back(std::move(chi_square));
 
   for (CheckResult& r : results) {
-    if (r.verdict == Verdict::fail) r.diagnosis = cause.text();
+    if (r.verdict == Verdict::fail) r.diagnosis = cause.best().text;
   }
-  return results;
+  return {std::move(results), cause.best()};
+}
+
+std::vector<CheckResult> check_pair(const SamplingPair& pair, const ContractOptions& options) {
+  return judge_pair(pair, options).results;
 }
 
 }  // namespace plumbline::verify

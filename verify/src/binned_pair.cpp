@@ -42,6 +42,24 @@ int log2_of(std::size_t bins) {
   return depth;
 }
 
+/// Cells follow the pilot points where the edge of a support may run, and are whole bins elsewhere.
+CubatureResult integrate_over(const BinTree& tree, const Chart& chart,
+                              const std::function<double(const Vec3&)>& function,
+                              std::vector<Point2>& pilot, double error) {
+  const auto on_square = [&](const Point2& p) {
+    return chart.element(p) * function(chart.from_square(p));
+  };
+  std::vector<Cell> cells;
+  for (std::size_t bin = 0; bin < tree.bins(); ++bin) {
+    if (shows_zero(on_square, tree.box(bin))) {
+      tree.add_cells_around_points(bin, pilot, cells);
+    } else {
+      cells.push_back(tree.cell(bin));
+    }
+  }
+  return integrate(on_square, cells, pilot, tree.bins(), error, kMaxEvaluations);
+}
+
 }  // namespace
 
 BinnedPair::BinnedPair(const SamplingPair& pair, int finest_bins, double mass_error,
@@ -75,19 +93,16 @@ void BinnedPair::tabulate_discrete() {
 void BinnedPair::integrate_density(double mass_error, std::uint64_t seed) {
   std::vector<Point2> pilot = draw_pilot(pair_, kPilotsPerBin << depth_, seed);
   tree_.emplace(pilot, depth_, pair_.domain.dimension());
-  const Chart& chart = pair_.domain.chart();
-  const auto density = [&](const Point2& p) {
-    return chart.element(p) * pair_.pdf(chart.from_square(p));
-  };
-  std::vector<Cell> cells;
-  for (std::size_t bin = 0; bin < tree_->bins(); ++bin) {
-    if (shows_zero(density, tree_->box(bin))) {
-      tree_->add_cells_around_points(bin, pilot, cells);
-    } else {
-      cells.push_back(tree_->cell(bin));
-    }
-  }
-  expected_ = integrate(density, cells, pilot, tree_->bins(), mass_error, kMaxEvaluations);
+  expected_ = integrate_over(*tree_, pair_.domain.chart(), pair_.pdf, pilot, mass_error);
+}
+
+CubatureResult integrate_over_domain(const SamplingPair& pair,
+                                     const std::function<double(const Vec3&)>& function,
+                                     int finest_bins, double error, std::uint64_t seed) {
+  const int depth = log2_of(static_cast<std::size_t>(finest_bins));
+  std::vector<Point2> pilot = draw_pilot(pair, kPilotsPerBin << depth, seed);
+  const BinTree tree(pilot, depth, pair.domain.dimension());
+  return integrate_over(tree, pair.domain.chart(), function, pilot, error);
 }
 
 void BinnedPair::draw(std::uint64_t count) {

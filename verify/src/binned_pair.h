@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,12 @@
 
 /// A sampling pair cut into bins: what the pdf expects of each, and what the sampler put there.
 namespace plumbline::verify {
+
+/// Integral of a function of the domain that the pair's samples are about proportional to: its
+/// f·|cosθ|.
+CubatureResult integrate_over_domain(const SamplingPair& pair,
+                                     const std::function<double(const Vec3&)>& function,
+                                     int finest_bins, double error, std::uint64_t seed);
 
 struct AtomCount {
   Atom atom;

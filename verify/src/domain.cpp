@@ -6,6 +6,8 @@
 
 #include <plumbline/verify/domain.h>
 
+#include "vec3.h"
+
 namespace plumbline::verify {
 
 namespace {
@@ -16,15 +18,6 @@ double outside(double x, double low, double high) { return std::max({0.0, low - 
 
 Vec3 moved_in_plane(const Vec3& x, double distance, double angle) {
   return {x[0] + distance * std::cos(angle), x[1] + distance * std::sin(angle), x[2]};
-}
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vec3 normalized(const Vec3& v) {
-  const double length = std::hypot(v[0], v[1], v[2]);
-  return {v[0] / length, v[1] / length, v[2] / length};
 }
 
 class IntervalChart final : public Chart {
