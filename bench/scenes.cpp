@@ -8,8 +8,7 @@ namespace plumbline::bench {
 
 std::filesystem::path scene_path(const std::string& name) {
   if (analytic::find_known_scene(name) != nullptr) return analytic::scene_file(name);
-  const std::filesystem::path path =
-      std::filesystem::path(PLUMBLINE_BENCH_SCENES) / (name + ".xml");
+  std::filesystem::path path = std::filesystem::path(PLUMBLINE_BENCH_SCENES) / (name + ".xml");
   if (!std::filesystem::exists(path)) throw renderer::InputError("no scene named '" + name + "'");
   return path;
 }

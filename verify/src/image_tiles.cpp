@@ -33,6 +33,11 @@ struct Tile {
 struct TileGrid {
   int width = 0, height = 0;
   std::vector<Tile> tiles;
+
+  const Tile& at(int x, int y) const {
+    return tiles[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(x)];
+  }
 };
 
 Tile sum_tile(const Residuals& r, int x0, int y0, int edge, double allowance) {
@@ -86,7 +91,7 @@ double neighbourhood_error2(const TileGrid& grid, int x, int y) {
   double sum = 0, count = 0;
   for (int j = std::max(0, y - 1); j <= std::min(grid.height - 1, y + 1); ++j) {
     for (int i = std::max(0, x - 1); i <= std::min(grid.width - 1, x + 1); ++i) {
-      sum += grid.tiles[static_cast<std::size_t>(j * grid.width + i)].error2;
+      sum += grid.at(i, j).error2;
       ++count;
     }
   }
@@ -171,9 +176,8 @@ TileScale test_tiles(const Residuals& residuals, int edge, double rounding_allow
   scale.height = grid.height;
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
-      scale.tests.push_back(test_tile(residuals,
-                                      grid.tiles[static_cast<std::size_t>(y * grid.width + x)],
-                                      neighbourhood_error2(grid, x, y), rounding_allowance));
+      scale.tests.push_back(test_tile(residuals, grid.at(x, y), neighbourhood_error2(grid, x, y),
+                                      rounding_allowance));
     }
   }
   return scale;
