@@ -86,7 +86,7 @@ std::string counted(std::size_t count, const char* noun) {
 }
 
 std::string strategy_label(const RenderArguments& arguments) {
-  const std::string label =
+  std::string label =
       arguments.strategy == renderer::Strategy::mis ? "MIS" : std::string(name(arguments.strategy));
   if (!uses_heuristic(arguments.strategy)) return label;
   return fmt::format("{} ({})", label, name(arguments.heuristic));
