@@ -36,6 +36,7 @@ struct DensitySet {
 std::vector<DensitySet> density_sets() {
   const std::vector<Density1d> overlap = {uniform_density(0, 0.6), uniform_density(0.4, 1)};
   std::vector<Density1d> eight;
+  eight.reserve(8);
   for (int i = 0; i < 8; ++i) eight.push_back(uniform_density(0.1 * i, 0.1 * i + 0.3));
   return {
       {"uniform + rising", {uniform_density(0, 1), rising_density(1)}},

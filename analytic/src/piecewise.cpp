@@ -55,7 +55,7 @@ Quadrature integrate_pieces(const Function& f, const std::vector<double>& cuts, 
   return sum;
 }
 
-std::vector<double> make_cuts(double low, double high, std::vector<double> inner) {
+std::vector<double> make_cuts(double low, double high, const std::vector<double>& inner) {
   std::vector<double> cuts = {low, high};
   for (const double x : inner) {
     if (x > low && x < high) cuts.push_back(x);

@@ -21,6 +21,6 @@ Quadrature integrate_pieces(const std::function<double(double)>& f, const std::v
                             double noise = 0);
 
 /// Sorted, without duplicates, and only what lies in [low, high]; `low` and `high` included.
-std::vector<double> make_cuts(double low, double high, std::vector<double> inner);
+std::vector<double> make_cuts(double low, double high, const std::vector<double>& inner);
 
 }  // namespace plumbline::analytic

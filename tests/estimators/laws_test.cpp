@@ -41,6 +41,14 @@ double sum(const std::vector<int>& counts) {
   return total;
 }
 
+/// n_i/N, the selection probabilities that go with the counts.
+std::vector<double> shares(const std::vector<int>& counts) {
+  std::vector<double> selection;
+  selection.reserve(counts.size());
+  for (const int n : counts) selection.push_back(n / sum(counts));
+  return selection;
+}
+
 /// (1/min n_i − 1/Σ n_i) μ², Veach 1997, Theorem 9.2.
 double veach_bound(const Integral1d& integral, const std::vector<int>& counts) {
   const double smallest = *std::min_element(counts.begin(), counts.end());
@@ -133,8 +141,7 @@ TEST(Laws, OptimalWeightsBeatEveryHeuristic) {
 TEST(Laws, FixedCountsNeverHaveMoreVarianceThanRandomSelection) {
   for (const Integral1d& integral : known_integrals()) {
     for (const auto& counts : some_counts(integral)) {
-      std::vector<double> selection;
-      for (const int n : counts) selection.push_back(n / sum(counts));
+      const std::vector<double> selection = shares(counts);
       for (const WeightRule& rule : kRules) {
         const double fixed = multi_sample_moments(integral, rule, counts).variance;
         const double random = one_sample_moments(integral, rule, selection).variance / sum(counts);
@@ -147,8 +154,7 @@ TEST(Laws, FixedCountsNeverHaveMoreVarianceThanRandomSelection) {
 TEST(Laws, BalanceIsTheBestOneSampleHeuristic) {
   for (const Integral1d& integral : known_integrals()) {
     for (const auto& counts : some_counts(integral)) {
-      std::vector<double> selection;
-      for (const int n : counts) selection.push_back(n / sum(counts));
+      const std::vector<double> selection = shares(counts);
       const double balance = one_sample_moments(integral, kRules[0], selection).variance;
       for (const WeightRule& rule : kRules) {
         EXPECT_LE(balance, one_sample_moments(integral, rule, selection).variance * (1 + 1e-10))

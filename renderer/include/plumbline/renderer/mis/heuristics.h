@@ -16,9 +16,7 @@ enum class Heuristic { balance, power, cutoff, maximum };
 /// A heuristic with its parameter. Converts from a heuristic, with the parameter that is usual for
 /// it.
 struct Weighting {
-  constexpr Weighting(
-      Heuristic h)  // NOLINT(google-explicit-constructor): a heuristic is a weighting
-      : heuristic(h), parameter(h == Heuristic::cutoff ? 0.1 : 2) {}
+  constexpr Weighting(Heuristic h) : heuristic(h), parameter(h == Heuristic::cutoff ? 0.1 : 2) {}
   constexpr Weighting(Heuristic h, double p) : heuristic(h), parameter(p) {}
 
   Heuristic heuristic;
