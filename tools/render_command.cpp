@@ -46,6 +46,7 @@ struct RenderArguments {
 template <class Values>
 std::vector<std::string> names_of(const Values& values) {
   std::vector<std::string> names;
+  names.reserve(std::size(values));
   for (const auto value : values) names.emplace_back(name(value));
   return names;
 }

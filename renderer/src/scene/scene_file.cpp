@@ -37,7 +37,7 @@ std::string Element::text(const char* attribute) const {
 }
 
 std::string Element::type(const std::vector<std::string>& supported) const {
-  const std::string value = text("type");
+  std::string value = text("type");
   if (std::find(supported.begin(), supported.end(), value) == supported.end()) {
     fail(fmt::format("<{}> of type {} is not supported; {}", tag(), in_quotes(value),
                      name_hint(value, supported)));
