@@ -23,11 +23,11 @@ using renderer::Vec3f;
 template <class Density, class Sampler>
 void check(const std::string& subject, const Density& density, const Sampler& sampler,
            verify::Verdict expected = verify::Verdict::pass) {
-  verify::ChiSquareOptions options;
-  options.subject = subject;
-  options.expected = expected;
+  verify::ContractOptions options;
   options.seed = check_seed(subject);
-  expect_verdict(verify::check_chi_square<Vec3f>(options, density, sampler));
+  verify::CheckResult result = verify::check_chi_square<Vec3f>(subject, density, sampler, options);
+  result.expected = expected;
+  expect_verdict(std::move(result));
 }
 
 TEST(ChiSquare, LambertianSamplesFollowTheirDensity) {
