@@ -22,7 +22,7 @@ double interface_reflectance(double cosine, double outside, Index inside);
 /// @param thickness   ≥ 0, in the unit of `wavelength`
 /// @param wavelength  in vacuum, > 0
 /// @return            unpolarised, in [0, 1]
-/// @source            Born, Wolf, Section 7.6, Eq. 9
+/// @source            Born, Wolf, Section 1.6.4, Eq. 57
 double film_reflectance(double cosine, double outside, double film, Index base, double thickness,
                         double wavelength);
 

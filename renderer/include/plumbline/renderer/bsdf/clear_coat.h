@@ -20,7 +20,7 @@ namespace plumbline::renderer {
 /// E the directional albedo of the coat, E_mean its cosine-weighted mean. So f is reciprocal, and
 /// its own albedo is E + albedo (1 − E) ≤ 1.
 /// @source Kelemen, Szirmay-Kalos 2001, "A microfacet based coupled specular-matte BRDF model with
-///         importance sampling", Eqs. 9–12
+///         importance sampling", Section 2.2
 class ClearCoat {
  public:
   /// Tabulates E, which takes some milliseconds.
@@ -32,6 +32,10 @@ class ClearCoat {
       : coat_{{alpha, alpha}, {}}, reflectance_{{eta}}, base_{albedo} {
     tabulate();
   }
+
+  float eta() const { return reflectance_.interface.eta; }
+  float alpha() const { return coat_.ggx.alpha_x; }
+  const Rgbf& base_albedo() const { return base_.albedo; }
 
   static constexpr BsdfParts parts() { return {.density = true}; }
 
@@ -78,7 +82,10 @@ class ClearCoat {
   template <class T>
   std::optional<BsdfSample<T>> sample_lobe(const Vec3<T>& wo, std::uint32_t lobe,
                                            const Vec2<T>& u) const {
-    auto result = lobe == 0 ? coat_.sample_with(reflectance_, wo, u) : base_.sample(wo, u);
+    // The base gets the numbers the other way round: what was rescaled to choose a lobe turns the
+    // azimuth. As the height it would lose the digits that wi next to the horizon needs.
+    auto result =
+        lobe == 0 ? coat_.sample_with(reflectance_, wo, u) : base_.sample(wo, Vec2<T>{u.y, u.x});
     if (result) result->lobe = lobe;
     return result;
   }
@@ -89,7 +96,7 @@ class ClearCoat {
   }
 
  private:
-  static constexpr int kNodes = 33;
+  static constexpr int kNodes = 65;
 
   /// The coat's reflectance from outside, in the place of ConductorFresnel.
   struct Reflectance {
@@ -114,7 +121,7 @@ class ClearCoat {
   /// Mean weight of the coat's samples over a grid of u; by symmetry over half of the azimuths, and
   /// with heights u.y = 1 − (1 − v)², because what u.y → 1 reflects is lost below the horizon.
   double integrate_albedo(double cosine) const {
-    constexpr int kAzimuths = 16, kHeights = 64;
+    constexpr int kAzimuths = 24, kHeights = 48;
     const Vec3d wo{safe_sqrt((1 - cosine) * (1 + cosine)), 0, cosine};
     double sum = 0;
     for (int i = 0; i < kAzimuths; ++i) {
@@ -137,14 +144,11 @@ class ClearCoat {
     for (std::size_t i = 0; i < kNodes; ++i) {
       table_[i] = static_cast<float>(albedo_at(static_cast<double>(i)));
     }
+    constexpr float kGridError = 2.5e-4f;
     std::array<float, kNodes> raised = table_;
     for (std::size_t i = 0; i + 1 < kNodes; ++i) {
-      float excess = 0;
-      for (const float part : {0.25f, 0.5f, 0.75f}) {
-        const double albedo = albedo_at(static_cast<double>(i) + static_cast<double>(part));
-        excess = std::max(
-            excess, static_cast<float>(albedo) - table_[i] * (1 - part) - table_[i + 1] * part);
-      }
+      const auto middle = static_cast<float>(albedo_at(static_cast<double>(i) + 0.5));
+      const float excess = std::max(middle - (table_[i] + table_[i + 1]) / 2, 0.0f) + kGridError;
       for (const std::size_t node : {i, i + 1}) {
         raised[node] = std::min(std::max(raised[node], table_[node] + excess), 1.0f);
       }

@@ -18,7 +18,7 @@
 ///
 ///   (1 − 2 (arg(1 + z e^ib) − arg(1 + z e^ia))/(b − a)) / (1 − |z|²).
 ///
-/// @source Born, Wolf, Principles of Optics, Section 7.6, Eq. 9 (the sum); the mean is ours
+/// @source Born, Wolf, Principles of Optics, Section 1.6.4, Eq. 57 (the sum); the mean is ours
 namespace plumbline::renderer {
 
 /// Wavelengths [nm] between which the channels lie: red, green, blue. Within a channel every

@@ -101,7 +101,7 @@ Complex<T> refracted_cosine(const T& cos_o, const T& eta, const T& k) {
 /// Reflectance of a conductor.
 ///
 /// @param cos_o, eta, k  as for refracted_cosine
-/// @source               Born, Wolf, Section 14.2, Eqs. 14–17
+/// @source               Born, Wolf, Section 14.2
 template <class T>
 T fresnel_conductor(const T& cos_o, const T& eta, const T& k) {
   const Complex<T> g = refracted_cosine(cos_o, eta, k);

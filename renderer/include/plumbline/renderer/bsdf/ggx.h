@@ -15,7 +15,7 @@ struct Ggx {
   /// |(αx x, αy y, z)|, with which G1(w) = 2|z| / (|z| + S(w)) and the projected area of the
   /// microsurface is (|z| + S(w))/2.
   ///
-  /// @source Heitz 2014 (JCGT 3:2), Eqs. 72 and 43
+  /// @source Heitz 2014 (JCGT 3:2), Eq. 86
   template <class T>
   T stretched_length(const Vec3<T>& w) const {
     using std::sqrt;
