@@ -72,6 +72,7 @@ BinnedPair::BinnedPair(const SamplingPair& pair, int finest_bins, double mass_er
     tabulate_discrete();
   } else {
     integrate_density(mass_error, seed);
+    measure_rounding(seed);
   }
   counts_.bins.assign(std::size_t{1} << depth_, 0);
   for (const Atom& atom : pair.atoms) counts_.atoms.push_back({atom, 0});
@@ -103,6 +104,24 @@ CubatureResult integrate_over_domain(const SamplingPair& pair,
   std::vector<Point2> pilot = draw_pilot(pair, kPilotsPerBin << depth, seed);
   const BinTree tree(pilot, depth, pair.domain.dimension());
   return integrate_over(tree, pair.domain.chart(), function, pilot, error);
+}
+
+void BinnedPair::measure_rounding(std::uint64_t seed) {
+  constexpr int kPoints = 500;
+  Random random(seed, 10);
+  double sum = 0;
+  int count = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const auto s = pair_.next(random);
+    if (!s || s->mass > 0 || !finite(s->x)) continue;
+    const double here = pair_.pdf(s->x);
+    const double beside = pair_.pdf(
+        pair_.domain.chart().near(s->x, pair_.epsilon, 2 * std::numbers::pi * random.uniform()));
+    if (!(here > 0 && beside > 0)) continue;
+    sum += std::min(1.0, std::abs(beside / here - 1));
+    ++count;
+  }
+  rounding_ = count > 0 ? sum / count : 0;
 }
 
 void BinnedPair::draw(std::uint64_t count) {

@@ -53,12 +53,18 @@ class BinnedPair {
   const CubatureResult& expected() const { return expected_; }  ///< mass per finest bin
   const BinCounts& counts() const { return counts_; }
 
+  /// By how much, relative to itself and on average over the samples, the density changes where its
+  /// point is rounded: what rounding may do to the mass. About epsilon, and far more for narrow
+  /// lobes in float.
+  double rounding() const { return rounding_; }
+
   /// Middle of a bin of a depth, in the domain.
   Vec3 center(int depth, std::size_t bin) const;
 
  private:
   void integrate_density(double mass_error, std::uint64_t seed);
   void tabulate_discrete();
+  void measure_rounding(std::uint64_t seed);
   void count_atom(const PairSample& sample);
   void count_point(const Vec3& x);
   std::size_t locate(const Vec3& x) const;
@@ -67,6 +73,7 @@ class BinnedPair {
   const SamplingPair& pair_;
   Random random_;
   int depth_;
+  double rounding_ = 0;
   std::optional<BinTree> tree_;
   CubatureResult expected_;
   BinCounts counts_;

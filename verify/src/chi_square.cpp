@@ -93,7 +93,7 @@ BinTable table_of(const BinnedPair& pair, int depth) {
 ChiSquareLook::ChiSquareLook(const ContractOptions& options, const BinnedPair& pair,
                              const RejectedShare& rejected, double fail_level, double pass_level)
     : options_(options), pair_(pair), mass_(balance_mass(pair, rejected, fail_level / 2)) {
-  const double rejected_share = mass_.expected_rejected(options.mass_tolerance);
+  const double rejected_share = mass_.expected_rejected(options.mass_tolerance + pair.rounding());
   for (const int depth : depths_of(pair.depth())) {
     levels_.push_back(test_level(pair, depth, rejected_share));
   }
@@ -150,7 +150,8 @@ void ChiSquareLook::judge(CheckResult& r) const {
     fail(number(counts.stray) + " of " + number(counts.drawn) + " samples lie where the pdf is 0" +
          (counts.strays.empty() ? std::string() : ", e.g. at " + place(counts.strays.front())));
   }
-  if (!(std::abs(mass_.excess()) <= options_.mass_tolerance + mass_.error())) {
+  const double tolerance = options_.mass_tolerance + pair_.rounding();
+  if (!(std::abs(mass_.excess()) <= tolerance + mass_.error())) {
     fail("∫pdf = " + number(mass_.integral) + ", atoms and rejected samples add " +
          number(mass_.atoms + mass_.rejected.value));
   }

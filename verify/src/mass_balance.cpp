@@ -9,50 +9,79 @@ namespace plumbline::verify {
 
 namespace {
 
-/// Halves squares of u on the border between rejected and accepted ones.
+/// Area of the rejected set: along lines of constant second number the border is bisected, and the
+/// lengths are integrated over the lines, halving where they are not smooth.
 class RejectedArea {
  public:
   explicit RejectedArea(const SamplingPair& pair) : pair_(pair) {}
 
   RejectedShare measure() {
-    constexpr int kGrid = 64;
-    for (int i = 0; i < kGrid; ++i) {
-      for (int j = 0; j < kGrid; ++j) add({i / double{kGrid}, j / double{kGrid}}, 1.0 / kGrid, 0);
+    constexpr int kStrips = 64;
+    double last = length(0);
+    for (int i = 0; i < kStrips; ++i) {
+      const double low = i / double{kStrips}, high = (i + 1) / double{kStrips};
+      const double next = length(high);
+      integrate(low, high, last, next, 0);
+      last = next;
     }
-    // Squares left on the border are known to about half their area each, with random sign.
-    return {area_, 4 * std::sqrt(uncertain_), true};
+    return {area_, error_, true};
   }
 
  private:
-  static constexpr int kMaxDepth = 7;  // 8192 squares along each side
+  static constexpr int kMaxDepth = 14;
+  static constexpr std::uint64_t kMaxSamples = 400'000;
+  static constexpr double kTolerance = 1e-6;  // of the area
 
-  void add(const Point2& corner, double size, int depth) {
-    const double share = rejected_share(corner, size);
-    const bool border = share > 0 && share < 1;
-    if (!border || depth == kMaxDepth) {
-      area_ += share * size * size;
-      if (border) uncertain_ += size * size * size * size / 4;
+  /// Simpson's rule on three lines, unless they do not lie on a straight line.
+  void integrate(double low, double high, double at_low, double at_high, int depth) {
+    const double middle = (low + high) / 2;
+    const double at_middle = length(middle);
+    const double width = high - low;
+    const double bend = std::abs(at_middle - (at_low + at_high) / 2) * width;
+    if (bend <= kTolerance * std::sqrt(width) || depth == kMaxDepth || samples_ > kMaxSamples) {
+      area_ += width * (at_low + 4 * at_middle + at_high) / 6;
+      error_ += bend / 3;
       return;
     }
-    for (const double x : {0.0, 0.5}) {
-      for (const double y : {0.0, 0.5}) {
-        add({corner[0] + x * size, corner[1] + y * size}, size / 2, depth + 1);
-      }
-    }
+    integrate(low, middle, at_low, at_middle, depth + 1);
+    integrate(middle, high, at_middle, at_high, depth + 1);
   }
 
-  double rejected_share(const Point2& corner, double size) const {
-    constexpr Point2 kProbes[] = {
-        {0.5, 0.5}, {0.02, 0.03}, {0.97, 0.02}, {0.03, 0.98}, {0.98, 0.97}};
-    int rejected = 0;
-    for (const Point2& p : kProbes) {
-      rejected += pair_.sample({corner[0] + p[0] * size, corner[1] + p[1] * size, 0}) ? 0 : 1;
+  /// Length of the rejected part of the line.
+  double length(double second) {
+    constexpr int kSteps = 128;
+    const double last_number = 1 - pair_.epsilon;
+    double sum = 0, from = 0;
+    bool inside = rejects(0, second);
+    for (int i = 1; i <= kSteps; ++i) {
+      // The ends, and the middles of equal steps between them.
+      const double to = i == kSteps ? last_number : (i - 0.5) / (kSteps - 1);
+      const bool then = rejects(to, second);
+      const double border = then == inside ? to : bisect(from, to, inside, second);
+      if (inside) sum += border - from;
+      if (then && !inside) sum += to - border;
+      from = to;
+      inside = then;
     }
-    return rejected / 5.0;
+    return sum;
+  }
+
+  double bisect(double from, double to, bool at_from, double second) {
+    while (to - from > 4 * pair_.epsilon) {
+      const double middle = (from + to) / 2;
+      (rejects(middle, second) == at_from ? from : to) = middle;
+    }
+    return (from + to) / 2;
+  }
+
+  bool rejects(double first, double second) {
+    ++samples_;
+    return !pair_.sample({first, std::min(second, 1 - pair_.epsilon), 0});
   }
 
   const SamplingPair& pair_;
-  double area_ = 0, uncertain_ = 0;
+  std::uint64_t samples_ = 0;
+  double area_ = 0, error_ = 0;
 };
 
 }  // namespace

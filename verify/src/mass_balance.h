@@ -7,9 +7,8 @@ namespace plumbline::verify {
 /// Share of the uniform numbers that the sampler rejects.
 struct RejectedShare {
   double value = 0;
-  double error = 0;  ///< at the level asked for
-  bool measured =
-      false;  ///< as an area of the unit square, to about 1e-6; else counted among samples
+  double error = 0;       ///< at the level asked for
+  bool measured = false;  ///< as an area of the unit square; else counted among samples
 };
 
 /// Where the probability of a pair is: ∫pdf + atoms + rejected should be 1.
@@ -25,8 +24,7 @@ struct MassBalance {
   double expected_rejected(double tolerance) const;
 };
 
-/// Area of the set of u that `sample` rejects, by halving the squares that its border crosses. Not
-/// measured for pairs of other than two numbers.
+/// Area of the set of u that `sample` rejects. Not measured for pairs of other than two numbers.
 RejectedShare measure_rejected(const SamplingPair& pair);
 
 /// @param measured  by measure_rejected

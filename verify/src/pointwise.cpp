@@ -12,6 +12,8 @@ namespace plumbline::verify {
 namespace {
 
 constexpr std::uint64_t kEnoughRatios = 2'000;
+// Rounding errors that a formula of a few dozen operations may pile up, in units of epsilon.
+constexpr double kRounding = 256;
 
 /// Counts the points where one property holds and where not.
 class Property {
@@ -188,7 +190,7 @@ class Pointwise {
       return x[0] >= 0 && x[0] < static_cast<double>(pair_.domain.size()) &&
              x[0] == std::floor(x[0]);
     }
-    return pair_.domain.chart().distance(x) <= 64 * pair_.epsilon;
+    return pair_.domain.chart().distance(x) <= kRounding * pair_.epsilon;
   }
 
   void see_atom(const PairSample& sample) {
@@ -240,7 +242,7 @@ class Pointwise {
   bool agree(double a, double b, const Vec3& x, const F& f) const {
     const double difference = std::abs(a - b);
     const double scale = std::max(std::abs(a), std::abs(b));
-    if (difference <= 64 * pair_.epsilon * scale) return true;
+    if (difference <= kRounding * pair_.epsilon * scale) return true;
     if (discrete_ || !std::isfinite(difference)) return false;
     double spread = 0;
     for (int k = 0; k < 4; ++k) {
@@ -248,7 +250,7 @@ class Pointwise {
       spread = std::max(spread,
                         std::abs(f(pair_.domain.chart().near(x, 8 * pair_.epsilon, angle)) - f(x)));
     }
-    return difference <= 64 * pair_.epsilon * scale + 16 * spread;
+    return difference <= kRounding * pair_.epsilon * scale + 16 * spread;
   }
 
   const SamplingPair& pair_;
