@@ -83,6 +83,7 @@ struct SinCos {
 template <class T>
 SinCos<T> sin_cos_turns(const T& u) {
   if constexpr (std::is_same_v<T, float>) {
+    // Rounding by truncation is right for u ≥ 0. NOLINTNEXTLINE(bugprone-incorrect-roundings)
     const int quarter = static_cast<int>(4.0f * u + 0.5f);
     const float x = 2 * pi<float>() * (u - 0.25f * static_cast<float>(quarter));
     const float x2 = x * x;
