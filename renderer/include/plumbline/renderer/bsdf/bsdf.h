@@ -22,8 +22,7 @@
 
 namespace plumbline::renderer {
 
-/// Every BSDF of the renderer. The tests walk this list: an alternative without example parameters
-/// does not compile there.
+/// Every BSDF of the renderer.
 using Bsdf = std::variant<Lambertian, ModifiedPhong, GgxConductor, GgxDielectric, SmoothConductor,
                           SmoothDielectric, ClearCoat, ThinFilm, TwoSided, Mixture>;
 

@@ -28,7 +28,7 @@ concept LightModel = requires(const L& light, const Vec3<double>& v, const Vec2<
   { light.radiance } -> std::convertible_to<Rgbf>;
 };
 
-/// Every light of the renderer. The tests walk this list, as they do for `Bsdf`.
+/// Every light of the renderer.
 using Light =
     std::variant<SphereLight, RectangleLight, DiskLight, TriangleLight, ConstantEnvironment>;
 
