@@ -32,8 +32,10 @@ const std::vector<Refusal> kBodies = {
     {"UnsupportedShape", "<shape type=\"cylinder\"/>",
      R"(3: <shape> of type "cylinder" is not supported; supported: sphere, rectangle, disk, obj)"},
     {"NoType", "<shape/>", R"(3: <shape> needs the attribute "type")"},
-    {"UnsupportedBsdf", "<bsdf type=\"twosided\" id=\"a\"/>",
-     R"(3: <bsdf> of type "twosided" is not supported; supported: diffuse)"},
+    {"UnsupportedBsdf", "<bsdf type=\"measured\" id=\"a\"/>",
+     "3: <bsdf> of type \"measured\" is not supported; supported: diffuse, conductor, "
+     "roughconductor, dielectric, roughdielectric, twosided, blendbsdf, clearcoat, thinfilm, "
+     "phong"},
     {"UnsupportedIntegrator", "<integrator type=\"volpath\"/>",
      R"(3: <integrator> of type "volpath" is not supported; did you mean "path"?)"},
     {"EnvironmentInShape", "<shape type=\"sphere\"><emitter type=\"constant\"/></shape>",

@@ -130,6 +130,11 @@ Affine Properties::transform(const std::string& name) {
   return read_transform(*element);
 }
 
+std::string Properties::tag_of(const std::string& name) const {
+  const auto found = by_name_.find(name);
+  return found == by_name_.end() ? std::string() : children_[found->second].element.tag();
+}
+
 std::vector<Element> Properties::objects(const std::string& tag) {
   add_unique(known_tags_, tag);
   std::vector<Element> result;

@@ -32,6 +32,9 @@ class Properties {
   Vec3d point(const std::string& name, const Vec3d& absent);
   Affine transform(const std::string& name);  ///< identity where absent
 
+  /// Tag of the property with that name: "float"; empty if there is none.
+  std::string tag_of(const std::string& name) const;
+
   /// Nested objects with that tag, in document order.
   std::vector<Element> objects(const std::string& tag);
 

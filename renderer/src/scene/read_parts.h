@@ -40,25 +40,44 @@ decltype(ShapeDescription::geometry) read_geometry(const std::string& type, Prop
 MeshShape read_mesh(const Properties& shape, const std::filesystem::path& file,
                     const Affine& to_world);
 
-/// The scene's BSDFs and who refers to them by id.
+/// The scene's BSDFs and who refers to them by id. Nested ones come before those that hold them.
 class BsdfTable {
  public:
   explicit BsdfTable(std::vector<Bsdf>& bsdfs) : bsdfs_(bsdfs) {}
 
-  /// Reads a <bsdf> and registers its id.
+  /// Reads a <bsdf> and those in it, and registers their ids.
   /// @return its index
   std::uint32_t read(const Element& element);
 
   /// What shapes without a BSDF get: diffuse, reflectance 0.5.
   std::uint32_t fallback();
 
-  /// @param ref  a <ref>; it may stand before what it refers to, so this waits until all is read
-  /// @param id   its id
+  /// @param ref    a <ref>; in a shape it may stand before what it refers to, so this waits until
+  ///               all is read
+  /// @param id     its id
+  /// @param where  for the message: where it was looked for
   /// @throws InputError if there is no BSDF with that id
-  std::uint32_t resolve(const Element& ref, const std::string& id) const;
+  std::uint32_t resolve(const Element& ref, const std::string& id, const char* where = "") const;
 
  private:
+  /// What those that nest a BSDF need to know of it.
+  struct Known {
+    BsdfParts parts;
+    int depth = 0;          ///< levels of BSDFs below it
+    double ext_ior = 1;     ///< index outside
+    double int_ior = 1e30;  ///< index inside, of a dielectric
+  };
+
+  Bsdf read_type(const std::string& type, Properties& properties, Known& known);
+  std::vector<std::uint32_t> read_nested(Properties& properties, std::size_t least,
+                                         std::size_t most, Known& known);
+  Bsdf read_two_sided(Properties& properties, Known& known);
+  Bsdf read_mixture(Properties& properties, Known& known);
+  Bsdf read_thin_film(Properties& properties);
+  std::uint32_t add(Bsdf bsdf, Known known);
+
   std::vector<Bsdf>& bsdfs_;
+  std::vector<Known> known_;  ///< of each of `bsdfs_`
   std::map<std::string, std::uint32_t> by_id_;
   std::optional<std::uint32_t> fallback_;
 };

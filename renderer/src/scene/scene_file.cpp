@@ -17,10 +17,16 @@ namespace plumbline::renderer {
 
 std::vector<std::string> supported_types(std::string_view tag) {
   static const std::map<std::string_view, std::vector<std::string>> types = {
-      {"bsdf", {"diffuse"}},       {"emitter", {"area", "constant"}},
-      {"film", {"hdrfilm"}},       {"integrator", {"path", "direct"}},
-      {"rfilter", {"box"}},        {"sampler", {"independent"}},
-      {"sensor", {"perspective"}}, {"shape", {"sphere", "rectangle", "disk", "obj"}},
+      {"bsdf",
+       {"diffuse", "conductor", "roughconductor", "dielectric", "roughdielectric", "twosided",
+        "blendbsdf", "clearcoat", "thinfilm", "phong"}},
+      {"emitter", {"area", "constant"}},
+      {"film", {"hdrfilm"}},
+      {"integrator", {"path", "direct"}},
+      {"rfilter", {"box"}},
+      {"sampler", {"independent"}},
+      {"sensor", {"perspective"}},
+      {"shape", {"sphere", "rectangle", "disk", "obj"}},
   };
   const auto found = types.find(tag);
   return found == types.end() ? std::vector<std::string>{} : found->second;
