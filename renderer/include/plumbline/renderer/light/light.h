@@ -28,7 +28,8 @@ concept LightModel = requires(const L& light, const Vec3<double>& v, const Vec2<
   { light.radiance } -> std::convertible_to<Rgbf>;
 };
 
-/// Every light of the renderer.
+/// Every light of the renderer. The tests walk this list: an alternative without examples does not
+/// compile there (tests/contracts/light_examples.h).
 using Light =
     std::variant<SphereLight, RectangleLight, DiskLight, TriangleLight, ConstantEnvironment>;
 
