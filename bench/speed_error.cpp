@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ namespace {
 using renderer::Heuristic;
 using renderer::Scene;
 using renderer::Strategy;
+
+constexpr std::array kHeuristics{Heuristic::balance, Heuristic::power};
 
 struct Work {
   int width = 64, height = 48;
@@ -63,8 +66,9 @@ void measure_scene(const std::string& name, const Work& work, reports::ResultLog
   const Scene scene(description);
   const auto reference = reference_luminance(name, description, work.reference_samples);
   for (const Strategy strategy : renderer::kStrategies) {
-    for (const Heuristic heuristic : renderer::kHeuristics) {
-      if (!uses_heuristic(strategy) && heuristic != renderer::kHeuristics.front()) continue;
+    if (strategy == Strategy::average) continue;  // a negative control
+    for (const Heuristic heuristic : kHeuristics) {
+      if (!uses_heuristic(strategy) && heuristic != kHeuristics.front()) continue;
       renderer::RenderOptions options;
       options.path = {strategy, heuristic, description.integrator.max_depth,
                       description.integrator.rr_depth};

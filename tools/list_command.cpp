@@ -50,9 +50,11 @@ std::string meaning(renderer::Strategy strategy) {
     case renderer::Strategy::uniform:
       return "directions uniform on the hemisphere only";
     case renderer::Strategy::mis:
-      return "one light sample and one BSDF sample, weighted by a heuristic";
+      return "light and BSDF samples (--counts; one each without it), weighted by a heuristic";
     case renderer::Strategy::one_sample:
-      return "light or BSDF, chosen at random, weighted by a heuristic";
+      return "light or BSDF, chosen at random (--light-probability), weighted by a heuristic";
+    case renderer::Strategy::average:
+      return "half of each, whatever their densities: a negative control, wrong where one is blind";
   }
   return {};
 }
@@ -65,10 +67,24 @@ Topic strategies() {
   return topic;
 }
 
+std::string meaning(renderer::Heuristic heuristic) {
+  switch (heuristic) {
+    case renderer::Heuristic::balance:
+      return "q / sum of q, with q = count * pdf";
+    case renderer::Heuristic::power:
+      return "q^b / sum of q^b; power=b, 2 without it";
+    case renderer::Heuristic::cutoff:
+      return "balance among those with q >= a * the largest; cutoff=a, 0.1 without it";
+    case renderer::Heuristic::maximum:
+      return "1 for the largest q";
+  }
+  return {};
+}
+
 Topic heuristics() {
   Topic topic{"heuristics", "heuristics for the weights of mis and one-sample", {}};
   for (const renderer::Heuristic heuristic : renderer::kHeuristics) {
-    topic.entries.push_back({std::string(name(heuristic)), {}});
+    topic.entries.push_back({std::string(name(heuristic)), meaning(heuristic)});
   }
   return topic;
 }

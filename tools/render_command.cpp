@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <limits>
@@ -32,7 +33,10 @@ struct RenderArguments {
   std::string output;
   std::string json;
   renderer::Strategy strategy = renderer::Strategy::mis;
-  renderer::Heuristic heuristic = renderer::Heuristic::power;
+  renderer::Weighting heuristic = renderer::Heuristic::power;
+  std::string counts;
+  std::optional<double> light_probability;
+  std::string roulette;
   std::optional<std::uint32_t> samples;
   double seconds = 0;
   double error = 0;
@@ -64,13 +68,59 @@ std::optional<renderer::FilmSize> parse_size(const std::string& text) {
   throw renderer::InputError(fmt::format("--size {}: must read WIDTHxHEIGHT", text));
 }
 
+/// "BSDF,LIGHT": two sample counts, not both 0.
+void set_counts(const std::string& text, renderer::PathOptions& path) {
+  constexpr int kMaxCount = 4096;
+  const char* end = text.data() + text.size();
+  const auto bsdf = std::from_chars(text.data(), end, path.bsdf_samples);
+  if (bsdf.ec == std::errc() && bsdf.ptr != end && *bsdf.ptr == ',') {
+    const auto light = std::from_chars(bsdf.ptr + 1, end, path.light_samples);
+    const auto [low, high] = std::minmax(path.bsdf_samples, path.light_samples);
+    if (light.ec == std::errc() && light.ptr == end && low >= 0 && high >= 1 && high <= kMaxCount) {
+      return;
+    }
+  }
+  throw renderer::InputError(fmt::format(
+      "--counts {}: must read BSDF,LIGHT, two numbers up to {}, not both 0", text, kMaxCount));
+}
+
+int parse_roulette(const std::string& text) {
+  if (text == "off") return renderer::kNoRoulette;
+  int depth = 0;
+  const char* end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, depth);
+  if (parsed.ec == std::errc() && parsed.ptr == end && depth >= 1) return depth;
+  throw renderer::InputError(fmt::format("--roulette {}: must be a depth from 1 on, or off", text));
+}
+
+/// Options of one strategy that are given with another would be without effect.
+void require_strategy(const RenderArguments& arguments, renderer::Strategy strategy,
+                      const char* option) {
+  if (arguments.strategy == strategy) return;
+  throw renderer::InputError(fmt::format("{} belongs to --strategy {}, not {}", option,
+                                         name(strategy), name(arguments.strategy)));
+}
+
 renderer::RenderOptions render_options(const RenderArguments& arguments,
                                        const renderer::SceneDescription& scene) {
   renderer::RenderOptions options;
   options.path.strategy = arguments.strategy;
   options.path.heuristic = arguments.heuristic;
   options.path.max_depth = arguments.max_depth.value_or(scene.integrator.max_depth);
-  options.path.rr_depth = scene.integrator.rr_depth;
+  options.path.rr_depth =
+      arguments.roulette.empty() ? scene.integrator.rr_depth : parse_roulette(arguments.roulette);
+  if (!arguments.counts.empty()) {
+    require_strategy(arguments, renderer::Strategy::mis, "--counts");
+    set_counts(arguments.counts, options.path);
+  }
+  if (arguments.light_probability) {
+    require_strategy(arguments, renderer::Strategy::one_sample, "--light-probability");
+    const double c = *arguments.light_probability;
+    if (!(c > 0 && c < 1)) {
+      throw renderer::InputError("--light-probability: must lie between 0 and 1, both excluded");
+    }
+    options.path.light_probability = static_cast<float>(c);
+  }
   // A limit on time or error stands for the number of samples unless both are given.
   const bool other_limit = arguments.seconds > 0 || arguments.error > 0;
   options.samples_per_pixel = arguments.samples.value_or(
@@ -90,7 +140,17 @@ std::string strategy_label(const RenderArguments& arguments) {
   std::string label =
       arguments.strategy == renderer::Strategy::mis ? "MIS" : std::string(name(arguments.strategy));
   if (!uses_heuristic(arguments.strategy)) return label;
-  return fmt::format("{} ({})", label, name(arguments.heuristic));
+  if (!arguments.counts.empty()) label += " " + arguments.counts;
+  if (arguments.light_probability) label += fmt::format(" {}", *arguments.light_probability);
+  return fmt::format("{} ({})", label, describe(arguments.heuristic));
+}
+
+/// The strategy as records name it: "mis", "mis 4,2", "one-sample 0.25".
+std::string strategy_record(const RenderArguments& arguments) {
+  std::string text(name(arguments.strategy));
+  if (!arguments.counts.empty()) text += " " + arguments.counts;
+  if (arguments.light_probability) text += fmt::format(" {}", *arguments.light_probability);
+  return text;
 }
 
 void print_found(const RenderArguments& arguments, const renderer::SceneDescription& description,
@@ -117,8 +177,8 @@ reports::RenderRecord make_record(const RenderArguments& arguments,
   const renderer::Rgbd mean = result.film.mean();
   reports::RenderRecord record;
   record.scene = arguments.scene;
-  record.strategy = name(arguments.strategy);
-  if (uses_heuristic(arguments.strategy)) record.heuristic = name(arguments.heuristic);
+  record.strategy = strategy_record(arguments);
+  if (uses_heuristic(arguments.strategy)) record.heuristic = describe(arguments.heuristic);
   record.samples_per_pixel = result.samples_per_pixel;
   record.seconds = result.seconds;
   record.camera_rays = result.counters.camera_rays;
@@ -200,11 +260,17 @@ renderer::Strategy parse_strategy(const std::string& text) {
                   renderer::name_hint(text, names_of(renderer::kStrategies))));
 }
 
-renderer::Heuristic parse_heuristic(const std::string& text) {
-  if (const auto heuristic = renderer::heuristic_from_name(text)) return *heuristic;
+renderer::Weighting parse_heuristic(const std::string& text) {
+  if (const auto weighting = renderer::weighting_from_text(text)) return *weighting;
+  const std::string heuristic = text.substr(0, text.find('='));
+  if (renderer::heuristic_from_name(heuristic)) {
+    throw renderer::InputError(fmt::format(
+        "--heuristic {}: only power=b with b > 0 and cutoff=a with a in [0, 1] have a parameter",
+        text));
+  }
   throw renderer::InputError(
       fmt::format("--heuristic {}: there is no such heuristic; {}", text,
-                  renderer::name_hint(text, names_of(renderer::kHeuristics))));
+                  renderer::name_hint(heuristic, names_of(renderer::kHeuristics))));
 }
 
 void add_options(CLI::App& command, RenderArguments& arguments) {
@@ -224,9 +290,21 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
       .add_option_function<std::string>(
           "--heuristic",
           [&](const std::string& text) { arguments.heuristic = parse_heuristic(text); },
-          fmt::format("One of {}; power without it",
+          fmt::format("One of {}; power=2 without it. power=b and cutoff=a take a parameter",
                       fmt::join(names_of(renderer::kHeuristics), ", ")))
       ->type_name("NAME");
+  command
+      .add_option("--counts", arguments.counts,
+                  "Samples of each technique at the first vertex, for mis; 1,1 without it")
+      ->type_name("BSDF,LIGHT");
+  command
+      .add_option("--light-probability", arguments.light_probability,
+                  "Chance of the light, for one-sample; 0.5 without it")
+      ->type_name("C");
+  command
+      .add_option("--roulette", arguments.roulette,
+                  "Russian roulette from this depth on, or off; the scene's without it")
+      ->type_name("N");
   command.add_option("--spp", arguments.samples, "Samples per pixel; the scene's without it")
       ->check(whole_number(1, kMaxSamples))
       ->type_name("N");

@@ -18,6 +18,8 @@ std::string_view to_string(Strategy strategy) {
       return "mis";
     case Strategy::one_sample:
       return "one-sample";
+    case Strategy::average:
+      return "average";
   }
   return "?";
 }

@@ -55,9 +55,43 @@ TEST(RenderCommand, SaysAtTheStartWhatItFound) {
   const Scratch scratch;
   const Outcome outcome =
       run_plumbline(scratch.path(), "render furnace_cube -o out.exr --spp 1 --size 8x8");
-  EXPECT_EQ(outcome.out.substr(0, outcome.out.find('\n')),
-            "MIS (power): 6 lights, 6 shapes, 1 BSDF, 8x8 pixels, depth unlimited, up to 1 sample "
-            "per pixel");
+  EXPECT_EQ(
+      outcome.out.substr(0, outcome.out.find('\n')),
+      "MIS (power=2): 6 lights, 6 shapes, 1 BSDF, 8x8 pixels, depth unlimited, up to 1 sample "
+      "per pixel");
+}
+
+TEST(RenderCommand, TakesCountsProbabilitiesRouletteAndParametersOfHeuristics) {
+  const Scratch scratch;
+  const auto strategy_and_heuristic = [&](const std::string& options) {
+    const Outcome outcome =
+        run_plumbline(scratch.path(),
+                      "render furnace_sphere -o o.exr --spp 1 --size 8x8 --json o.json " + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const reports::RenderRecord record = reports::read_render_record(scratch.file("o.json"));
+    return record.strategy + " / " + record.heuristic;
+  };
+  EXPECT_EQ(strategy_and_heuristic("--counts 4,2 --heuristic power=3"), "mis 4,2 / power=3");
+  EXPECT_EQ(strategy_and_heuristic("--strategy one-sample --light-probability 0.25 --heuristic "
+                                   "cutoff=0.2"),
+            "one-sample 0.25 / cutoff=0.2");
+  EXPECT_EQ(strategy_and_heuristic("--strategy average --roulette off --max-depth 3"),
+            "average / ");
+}
+
+TEST(RenderCommand, RefusesOptionsWithoutMeaning) {
+  const Scratch scratch;
+  for (const std::string options :
+       {"--counts 0,0", "--counts 2", "--counts 2,-1", "--counts 1,2,3",
+        "--strategy bsdf --counts 1,2", "--light-probability 0.5",
+        "--strategy one-sample --light-probability 1", "--heuristic power=0", "--heuristic power=x",
+        "--heuristic cutoff=2", "--heuristic balance=2", "--roulette 0", "--roulette never",
+        "--roulette off"}) {
+    const Outcome outcome = run_plumbline(
+        scratch.path(), "render furnace_sphere -o o.exr --spp 1 --size 8x8 " + options);
+    EXPECT_EQ(outcome.exit_code, 2) << options;
+    EXPECT_FALSE(outcome.err.empty()) << options;
+  }
 }
 
 TEST(RenderCommand, TakesASceneFileAndItsSampleCount) {

@@ -1,33 +1,47 @@
 #include <plumbline/renderer/render/path.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 namespace plumbline::renderer {
 namespace {
 
-/// The techniques for direct light at one vertex. `n_…` is the expected number of samples (1 where
-/// the strategy always draws it, 1/2 where it does so half the time, 0 where never), which is what
-/// enters the MIS weight; `draw_…` says what is drawn this time.
+/// The techniques for direct light at one vertex. `n_…` is the expected number of samples, or the
+/// probability of the one: what enters the MIS weight. `draw_…` is the number drawn this time.
 struct Techniques {
   float n_bsdf = 0, n_light = 0;
-  bool draw_bsdf = false, draw_light = false, draw_uniform = false;
+  int draw_bsdf = 0, draw_light = 0;
+  bool draw_uniform = false;
+
+  /// BSDF samples in all: one goes on where no density is asked for, since only it finds atoms.
+  int directions() const { return std::max(draw_bsdf, 1); }
 };
 
-Techniques choose_techniques(Strategy strategy, Pcg32& random) {
-  switch (strategy) {
+Techniques counts(int bsdf, int light) {
+  return {.n_bsdf = static_cast<float>(bsdf),
+          .n_light = static_cast<float>(light),
+          .draw_bsdf = bsdf,
+          .draw_light = light};
+}
+
+Techniques choose_techniques(const PathOptions& options, int depth, Pcg32& random) {
+  switch (options.strategy) {
     case Strategy::bsdf:
-      return {.n_bsdf = 1, .draw_bsdf = true};
+      return counts(1, 0);
     case Strategy::light:
-      return {.n_light = 1, .draw_light = true};
+      return counts(0, 1);
     case Strategy::uniform:
       return {.draw_uniform = true};
     case Strategy::mis:
-      return {.n_bsdf = 1, .n_light = 1, .draw_bsdf = true, .draw_light = true};
+      return depth == 1 ? counts(options.bsdf_samples, options.light_samples) : counts(1, 1);
     case Strategy::one_sample: {
-      const bool light = random.next_1d() < 0.5f;
-      return {.n_bsdf = 0.5f, .n_light = 0.5f, .draw_bsdf = !light, .draw_light = light};
+      const float c = options.light_probability;
+      const bool light = random.next_1d() < c;
+      return {.n_bsdf = 1 - c, .n_light = c, .draw_bsdf = !light, .draw_light = light};
     }
+    case Strategy::average:
+      return counts(1, 1);
   }
   return {};
 }
@@ -67,14 +81,18 @@ class Path {
 
       const Vertex vertex = vertex_at(*hit, -ray.direction);
       const BsdfParts& parts = vertex.bsdf.parts();
-      const Techniques techniques = choose_techniques(options_.strategy, random_);
-      if (techniques.draw_light && parts.density)
+      const Techniques techniques = choose_techniques(options_, depth, random_);
+      for (int i = 0; parts.density && i < techniques.draw_light; ++i) {
         result += throughput * light_estimate(vertex, techniques);
+      }
+      for (int i = 1; i < techniques.draw_bsdf; ++i) {
+        result += throughput * bsdf_estimate(vertex, techniques);
+      }
       if (techniques.draw_uniform && parts.density) {
         result += throughput * uniform_estimate(vertex);
       }
       // Nothing left that the continued path could find.
-      if (!techniques.draw_bsdf && !parts.atoms && !within(depth + 2)) break;
+      if (techniques.draw_bsdf == 0 && !parts.atoms && !within(depth + 2)) break;
 
       const auto next = vertex.bsdf.sample(vertex.wo, random_.next_2d());
       if (!next) {
@@ -114,14 +132,35 @@ class Path {
     return arrival ? radiance * bsdf_weight(*arrival, light, direction) : radiance;
   }
 
+  /// MIS weight of one sample of a technique over the number of its samples.
+  float weight(float n, float pdf, float n_other, float pdf_other) const {
+    if (options_.strategy == Strategy::average) return 0.5f;
+    return mis_weight(options_.heuristic, n * pdf, n_other * pdf_other) / n;
+  }
+
   float bsdf_weight(const Arrival& arrival, std::uint32_t light, const Vec3f& direction) const {
-    if (arrival.by_atom) return 1;
     const Techniques& t = arrival.techniques;
-    if (!t.draw_bsdf) return 0;
+    if (arrival.by_atom) {
+      return options_.strategy == Strategy::average ? 0.5f : 1 / static_cast<float>(t.directions());
+    }
+    if (t.draw_bsdf == 0) return 0;
     const float pdf_light =
         t.n_light > 0 ? scene_.lights().pdf(light, arrival.ref, direction) : 0.0f;
-    return mis_weight(options_.heuristic, t.n_bsdf * arrival.pdf_w, t.n_light * pdf_light) /
-           t.n_bsdf;
+    return weight(t.n_bsdf, arrival.pdf_w, t.n_light, pdf_light);
+  }
+
+  /// Direct light by one more BSDF sample, which the path does not follow further.
+  Rgbf bsdf_estimate(const Vertex& vertex, const Techniques& techniques) {
+    const auto next = vertex.bsdf.sample(vertex.wo, random_.next_2d());
+    if (!next) {
+      ++counters_.rejected;
+      return {};
+    }
+    ++counters_.bounce_rays;
+    const Vec3f direction = vertex.frame.to_world(next->wi);
+    const auto hit = scene_.intersect({vertex.hit.origin_towards(direction), direction});
+    const Arrival arrival{techniques, next->is_atom(), next->pdf_w, vertex.ref};
+    return next->weight * emission(hit, direction, arrival);
   }
 
   /// Direct light by one point on a light.
@@ -135,9 +174,8 @@ class Path {
     const Rgbf f = vertex.bsdf.eval(vertex.wo, wi);
     if (is_black(f) || !is_visible(vertex, *light)) return {};
     const float pdf_bsdf = t.n_bsdf > 0 ? vertex.bsdf.pdf(vertex.wo, wi) : 0.0f;
-    const float weight =
-        mis_weight(options_.heuristic, t.n_light * light->pdf_w, t.n_bsdf * pdf_bsdf) / t.n_light;
-    return f * light->radiance * (std::abs(wi.z) * weight / light->pdf_w);
+    const float w = weight(t.n_light, light->pdf_w, t.n_bsdf, pdf_bsdf);
+    return f * light->radiance * (std::abs(wi.z) * w / light->pdf_w);
   }
 
   bool is_visible(const Vertex& vertex, const LightSample<float>& light) {

@@ -1,5 +1,9 @@
 #include <plumbline/renderer/render/strategy.h>
 
+#include <fmt/format.h>
+
+#include <charconv>
+
 namespace plumbline::renderer {
 namespace {
 
@@ -9,6 +13,14 @@ std::optional<Value> from_name(const std::array<Value, N>& values, std::string_v
     if (name(value) == text) return value;
   }
   return std::nullopt;
+}
+
+bool has_parameter(Heuristic heuristic) {
+  return heuristic == Heuristic::power || heuristic == Heuristic::cutoff;
+}
+
+bool in_range(const Weighting& w) {
+  return w.heuristic == Heuristic::power ? w.parameter > 0 : w.parameter >= 0 && w.parameter <= 1;
 }
 
 }  // namespace
@@ -25,6 +37,8 @@ std::string_view name(Strategy strategy) {
       return "mis";
     case Strategy::one_sample:
       return "one-sample";
+    case Strategy::average:
+      return "average";
   }
   return "?";
 }
@@ -49,6 +63,25 @@ std::optional<Strategy> strategy_from_name(std::string_view text) {
 
 std::optional<Heuristic> heuristic_from_name(std::string_view text) {
   return from_name(kHeuristics, text);
+}
+
+std::string describe(const Weighting& weighting) {
+  if (!has_parameter(weighting.heuristic)) return std::string(name(weighting.heuristic));
+  return fmt::format("{}={}", name(weighting.heuristic), weighting.parameter);
+}
+
+std::optional<Weighting> weighting_from_text(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  const auto heuristic = heuristic_from_name(text.substr(0, equals));
+  if (!heuristic) return std::nullopt;
+  if (equals == std::string_view::npos) return Weighting(*heuristic);
+  const std::string_view number = text.substr(equals + 1);
+  Weighting weighting(*heuristic);
+  const char* end = number.data() + number.size();
+  const auto parsed = std::from_chars(number.data(), end, weighting.parameter);
+  if (parsed.ec != std::errc() || parsed.ptr != end) return std::nullopt;
+  if (!has_parameter(*heuristic) || !in_range(weighting)) return std::nullopt;
+  return weighting;
 }
 
 }  // namespace plumbline::renderer

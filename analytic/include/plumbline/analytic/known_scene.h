@@ -15,12 +15,12 @@
 namespace plumbline::analytic {
 
 /// How a renderer combines its sampling techniques. Names as on the command line.
-enum class Strategy { bsdf, light, uniform, mis, one_sample };
+enum class Strategy { bsdf, light, uniform, mis, one_sample, average };
 
-inline constexpr Strategy kStrategies[] = {Strategy::bsdf, Strategy::light, Strategy::uniform,
-                                           Strategy::mis, Strategy::one_sample};
+inline constexpr Strategy kStrategies[] = {Strategy::bsdf, Strategy::light,      Strategy::uniform,
+                                           Strategy::mis,  Strategy::one_sample, Strategy::average};
 
-/// "bsdf", "light", "uniform", "mis" or "one-sample".
+/// "bsdf", "light", "uniform", "mis", "one-sample" or "average".
 std::string_view to_string(Strategy strategy);
 
 /// What an unbiased renderer can be expected to prove about a scene with a strategy: that it

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include <plumbline/renderer/math.h>
@@ -67,6 +68,10 @@ std::array<T, kMaxTechniques> relative_densities(std::span<const TechniqueDensit
   return relative;
 }
 
+/// Relative difference below which two densities are held for equal: 5e-4 in float, 9e-13 in
+/// double.
+inline constexpr int kTieUlps = 4096;
+
 /// What the heuristic makes of a relative density before the shares are taken.
 template <class T>
 T emphasise(const Weighting& weighting, const T& relative) {
@@ -81,8 +86,9 @@ T emphasise(const Weighting& weighting, const T& relative) {
     case Heuristic::cutoff:
       return relative >= T(weighting.parameter) ? relative : T(0);
     case Heuristic::maximum:
-      // Equal maxima share, so that the weight does not depend on the order of the techniques.
-      return relative == T(1) ? T(1) : T(0);
+      // Equal maxima share, and what rounding may have made of equal ones: the weights at the two
+      // ends of a ray come from different arithmetic, and must not both say that they lost.
+      return relative >= T(1) - T(kTieUlps) * std::numeric_limits<T>::epsilon() ? T(1) : T(0);
   }
   return T(0);
 }
@@ -92,8 +98,9 @@ T emphasise(const Weighting& weighting, const T& relative) {
 /// MIS weight of technique `i` at a point that all of them are asked about.
 ///
 /// With q_k = count·pdf: balance q_i/Σq; power q_i^β/Σq^β; cutoff q_i/Σ{q ≥ α q_max}, 0 below;
-/// maximum 1 for the largest. Where atoms meet the point, they alone share the weight, by their
-/// masses.
+/// maximum 1 for the largest, shared by
+/// those that differ from it by rounding only. Where atoms meet the point, they alone share the
+/// weight, by their masses.
 ///
 /// @param techniques  up to kMaxTechniques
 /// @return            in [0, 1]; 0 where the density is 0; sums to 1 over `i` within M ulp wherever

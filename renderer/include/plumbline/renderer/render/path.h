@@ -10,10 +10,14 @@ namespace plumbline::renderer {
 
 struct PathOptions {
   Strategy strategy = Strategy::mis;
-  Heuristic heuristic = Heuristic::power;
+  Weighting heuristic = Heuristic::power;
   int max_depth =
       -1;  ///< as in Mitsuba: 1 is directly visible emission, 2 adds direct light, −1 no limit
   int rr_depth = 5;  ///< Russian roulette from this depth on, > 0; kNoRoulette turns it off
+  /// Of `mis`, at the first vertex: samples n ≥ 0 of each technique, not both 0, which together
+  /// must find all light. Later vertices take one of each.
+  int bsdf_samples = 1, light_samples = 1;
+  float light_probability = 0.5f;  ///< of `one_sample`: that of the light, in (0, 1)
 };
 
 inline constexpr int kNoRoulette = std::numeric_limits<int>::max();
