@@ -6,6 +6,7 @@
 
 #include <plumbline/verify/bsdf.h>
 
+#include "asymmetry_diagnosis.h"
 #include "binned_pair.h"
 #include "chi_square_look.h"
 #include "text.h"
@@ -72,6 +73,7 @@ class Reciprocity {
     result_.leaned_on = "points tested";
     result_.verdict = failed_ == 0 ? Verdict::pass : Verdict::fail;
     if (failed_ > 0) {
+      result_.diagnosis = asymmetry_.diagnosis();
       result_.reason += " (" + number(std::uint64_t(failed_)) + " of " +
                         number(std::uint64_t(pairs_)) + " pairs fail)";
     }
@@ -83,6 +85,9 @@ class Reciprocity {
     const Channels there = bsdf_.eval(wo, wi), back = bsdf_.eval(wi, wo);
     const double eta_o = eta_squared(wo, options_.eta), eta_i = eta_squared(wi, options_.eta);
     ++pairs_;
+    if (there.count > 0) {
+      asymmetry_.add({wo, wi, there[0] / eta_o / (back[0] / eta_i), eta_i / eta_o});
+    }
     for (std::size_t c = 0; c < there.count; ++c) {
       const double a = there[c] / eta_o, b = back[c] / eta_i;
       const auto moved_i = [&](const Vec3& w) { return bsdf_.eval(wo, w)[c] / eta_o; };
@@ -103,6 +108,7 @@ class Reciprocity {
   const ErasedBsdf& bsdf_;
   const BsdfOptions& options_;
   CheckResult result_;
+  Asymmetry asymmetry_;
   int pairs_ = 0, failed_ = 0;
   double worst_ = 0;
 };

@@ -122,7 +122,7 @@ std::string name_constant(double factor) {
 void add_factor(std::vector<Hypothesis>& list, const RatioEvidence& e, const Suspect& suspect) {
   const auto value = suspect.value;
   const std::string& name = suspect.name;
-  const bool compound = name.find(' ') != std::string::npos;
+  const bool compound = name.find(' ') != std::string::npos && name.front() != '(';
   const std::string group = compound ? "(" + name + ")" : name;
   list.push_back({name, "factor " + name + " missing from " + e.denominator + "?", value});
   const std::string inverse_remark = suspect.remark_if_inverse.empty()
@@ -150,6 +150,25 @@ void add_mirrored(std::vector<Hypothesis>& list, const SamplingPair& pair) {
   list.push_back({"pdf(y, x, z)/pdf(x, y, z)", "x and y exchanged?", [&pair](const Vec3& x) {
                     return pair.pdf({x[1], x[0], x[2]}) / pair.pdf(x);
                   }});
+}
+
+/// The size of the domain, as something to be confused with its inverse. On the sphere it is a
+/// constant that has a name.
+void add_extent(std::vector<Hypothesis>& list, const SamplingPair& pair, const RatioEvidence& e) {
+  constexpr int kSteps = 64;
+  if (pair.domain.dimension() == 0 || pair.domain.directions()) return;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      sum += pair.domain.chart().element({(i + 0.5) / kSteps, (j + 0.5) / kSteps});
+    }
+  }
+  const double extent = sum / (kSteps * kSteps);
+  if (std::abs(extent - 1) < 0.01) return;
+  const std::string name = pair.domain.dimension() == 1 ? "length" : "area";
+  Suspect suspect{name, [extent](const Vec3&) { return extent; }};
+  suspect.remark_if_inverse = "1/" + name + " missing from " + e.denominator + "?";
+  add_factor(list, e, suspect);
 }
 
 double sum_of_lobes(const SamplingPair& pair, const Vec3& x, bool with_probability) {
@@ -193,6 +212,7 @@ std::vector<Hypothesis> hypotheses(const SamplingPair& pair, const RatioEvidence
     add_factor(list, e, {"sinθ", [](const Vec3& w) { return std::hypot(w[0], w[1]); }});
     add_mirrored(list, pair);
   }
+  add_extent(list, pair, e);
   if (!pair.lobes.empty()) add_lobes(list, pair);
   return list;
 }
