@@ -2,7 +2,7 @@
 
 #include <plumbline/renderer/bsdf/bsdf.h>
 #include <plumbline/renderer/light/light.h>
-#include <plumbline/renderer/sampling/pcg32.h>
+#include <plumbline/renderer/sampling/sampler.h>
 
 /// Nanoseconds per sample, pdf and eval, as rendered: in float, through the variant.
 namespace plumbline::renderer {
@@ -45,12 +45,19 @@ void light_pdf(benchmark::State& state, const Light& light) {
   }
 }
 
-void random_numbers(benchmark::State& state) {
-  Pcg32 random(1, 0, 0);
-  for (auto _ : state) benchmark::DoNotOptimize(random.next_2d());
+/// Two numbers, through the variant. What starting a sample costs is spread over the 16 pairs of a
+/// path.
+void random_pair(benchmark::State& state, SamplerType type) {
+  std::uint64_t sample = 0;
+  constexpr int kPairs = 16;
+  while (state.KeepRunningBatch(kPairs)) {
+    Sampler random(type, 1, 0, sample++);
+    for (int i = 0; i < kPairs; ++i) benchmark::DoNotOptimize(random.next_2d());
+  }
 }
 
-BENCHMARK(random_numbers);
+BENCHMARK_CAPTURE(random_pair, independent, SamplerType::independent);
+BENCHMARK_CAPTURE(random_pair, sobol, SamplerType::sobol);
 BENCHMARK_CAPTURE(bsdf_sample, lambertian, 0);
 BENCHMARK_CAPTURE(bsdf_eval_and_pdf, lambertian, 0);
 BENCHMARK_CAPTURE(light_sample, sphere, kSphere);

@@ -37,6 +37,8 @@ struct RenderArguments {
   std::string counts;
   std::optional<double> light_probability;
   std::string roulette;
+  renderer::SamplerType sampler = renderer::SamplerType::independent;
+  std::optional<std::uint32_t> replicates;
   std::optional<std::uint32_t> samples;
   double seconds = 0;
   double error = 0;
@@ -101,6 +103,16 @@ void require_strategy(const RenderArguments& arguments, renderer::Strategy strat
                                          name(strategy), name(arguments.strategy)));
 }
 
+/// Into how many scrambles the samples of a pixel are dealt out. Two would do for a variance, but
+/// one of a single degree of freedom.
+std::uint32_t replicates_of(const RenderArguments& arguments) {
+  if (arguments.sampler == renderer::SamplerType::sobol) return arguments.replicates.value_or(4);
+  if (arguments.replicates) {
+    throw renderer::InputError("--replicates belongs to --sampler sobol");
+  }
+  return 1;
+}
+
 renderer::RenderOptions render_options(const RenderArguments& arguments,
                                        const renderer::SceneDescription& scene) {
   renderer::RenderOptions options;
@@ -128,6 +140,8 @@ renderer::RenderOptions render_options(const RenderArguments& arguments,
   options.seconds = arguments.seconds;
   options.relative_error = arguments.error;
   options.seed = arguments.seed;
+  options.sampler = arguments.sampler;
+  options.replicates = replicates_of(arguments);
   options.threads = arguments.threads;
   return options;
 }
@@ -179,6 +193,8 @@ reports::RenderRecord make_record(const RenderArguments& arguments,
   record.scene = arguments.scene;
   record.strategy = strategy_record(arguments);
   if (uses_heuristic(arguments.strategy)) record.heuristic = describe(arguments.heuristic);
+  record.sampler = name(arguments.sampler);
+  record.replicates = options.replicates;
   record.samples_per_pixel = result.samples_per_pixel;
   record.seconds = result.seconds;
   record.camera_rays = result.counters.camera_rays;
@@ -204,6 +220,8 @@ std::map<std::string, std::string> metadata(const reports::RenderRecord& record)
       {"scene", record.scene},
       {"strategy", record.strategy},
       {"seed", std::to_string(record.seed)},
+      {"sampler", record.sampler},
+      {"replicates", std::to_string(record.replicates)},
       {"samples", std::to_string(record.samples_per_pixel)},
       {"seconds", fmt::format("{:.3f}", record.seconds)},
       {"max_depth", std::to_string(record.max_depth)},
@@ -273,6 +291,12 @@ renderer::Weighting parse_heuristic(const std::string& text) {
                   renderer::name_hint(heuristic, names_of(renderer::kHeuristics))));
 }
 
+renderer::SamplerType parse_sampler(const std::string& text) {
+  if (const auto sampler = renderer::sampler_from_name(text)) return *sampler;
+  throw renderer::InputError(fmt::format("--sampler {}: there is no such sampler; {}", text,
+                                         renderer::name_hint(text, names_of(renderer::kSamplers))));
+}
+
 void add_options(CLI::App& command, RenderArguments& arguments) {
   command.add_option("scene", arguments.scene, "Scene file, or name of a known scene")
       ->required()
@@ -304,6 +328,18 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
   command
       .add_option("--roulette", arguments.roulette,
                   "Russian roulette from this depth on, or off; the scene's without it")
+      ->type_name("N");
+  command
+      .add_option_function<std::string>(
+          "--sampler", [&](const std::string& text) { arguments.sampler = parse_sampler(text); },
+          fmt::format("One of {}; independent without it",
+                      fmt::join(names_of(renderer::kSamplers), ", ")))
+      ->type_name("NAME");
+  command
+      .add_option("--replicates", arguments.replicates,
+                  "Of sobol: scrambles that --spp is dealt out to, which show the noise; 4 without "
+                  "it, 1 for the least noise and no estimate of it")
+      ->check(whole_number(1, 1024))
       ->type_name("N");
   command.add_option("--spp", arguments.samples, "Samples per pixel; the scene's without it")
       ->check(whole_number(1, kMaxSamples))

@@ -101,6 +101,8 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("scene", r.scene);
   visit("strategy", r.strategy);
   visit("heuristic", r.heuristic);
+  visit("sampler", r.sampler);
+  visit("replicates", r.replicates);
   visit("spp", r.samples_per_pixel);
   visit("seconds", r.seconds);
   visit("camera_rays", r.camera_rays);

@@ -11,8 +11,14 @@ namespace plumbline::tests {
 /// Luminance samples of paths through uniformly random film positions: independent and identically
 /// distributed, with the mean of the whole image. Drawn in parallel, merged in a fixed order.
 ///
+/// Under Sobol one sample is the mean over a net of kNetSize paths with a scramble of its own: the
+/// paths of one net depend on each other, nets do not.
+///
 /// @param scene  must outlive the sampler
-verify::MomentSampler path_samples(const renderer::Scene& scene,
-                                   const renderer::PathOptions& options, std::uint64_t seed);
+verify::MomentSampler path_samples(
+    const renderer::Scene& scene, const renderer::PathOptions& options, std::uint64_t seed,
+    renderer::SamplerType sampler = renderer::SamplerType::independent);
+
+inline constexpr std::uint32_t kNetSize = 16;
 
 }  // namespace plumbline::tests

@@ -82,6 +82,34 @@ TEST(Render, RaysAreCounted) {
   EXPECT_EQ(result.counters.shadow_rays, 8u * 8u * 8u);
 }
 
+TEST(Render, SobolSamplesAreDealtOutToReplicatesWhateverThePasses) {
+  const Scene scene(tests::closed_sphere(33, 17));
+  RenderOptions options = options_for(Strategy::mis);
+  options.sampler = SamplerType::sobol;
+  options.replicates = 4;
+  options.relative_error = 0.05;
+  options.samples_per_pixel = 1000;
+  const RenderResult passes = render(scene, options);
+  EXPECT_GT(passes.samples_per_pixel, 4u);
+  EXPECT_LT(passes.samples_per_pixel, 1000u);
+  EXPECT_EQ(passes.film.at(3, 4).count, 4u);
+  options.relative_error = 0;
+  options.samples_per_pixel = passes.samples_per_pixel;
+  options.threads = 1;
+  EXPECT_TRUE(same_bits(passes.film, render(scene, options).film));
+}
+
+TEST(Render, OneReplicateOfSobolPointsClaimsNoVariance) {
+  const Scene scene(tests::closed_sphere(8, 8));
+  RenderOptions options = options_for(Strategy::light);
+  options.sampler = SamplerType::sobol;
+  const RenderResult result = render(scene, options);
+  EXPECT_EQ(result.film.at(3, 4).count, 1u);
+  EXPECT_EQ(result.samples_per_pixel, 8u);
+  options.relative_error = 0.1;
+  EXPECT_THROW(render(scene, options), InputError);
+}
+
 TEST(Render, UnlimitedDepthWithoutRouletteIsRefused) {
   const Scene scene(tests::closed_sphere(8, 8));
   RenderOptions options = options_for(Strategy::bsdf);

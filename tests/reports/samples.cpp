@@ -57,6 +57,8 @@ reports::RenderRecord sample_render() {
   render.non_finite = 5;
   render.mean = {0.5, 0.25, 0.125};
   render.seed = 18'446'744'073'709'551'614u;
+  render.sampler = "sobol";
+  render.replicates = 4;
   render.version = "1.2.3";
   render.max_depth = 7;
   render.width = 192;

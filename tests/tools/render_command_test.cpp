@@ -51,6 +51,23 @@ TEST(RenderCommand, WritesImageAndRecord) {
   EXPECT_EQ(record.parameters.at("radius"), "0.25");
 }
 
+TEST(RenderCommand, SobolImagesSayHowTheirNoiseIsKnown) {
+  const Scratch scratch;
+  ASSERT_EQ(run_plumbline(scratch.path(),
+                          "render sphere_light -o out.exr --json out.json --sampler sobol --spp 64 "
+                          "--size 16x12")
+                .exit_code,
+            0);
+  const renderer::Image image = renderer::read_exr(scratch.file("out.exr"));
+  EXPECT_EQ(image.count.at(0), 4);
+  EXPECT_EQ(image.metadata.at("sampler"), "sobol");
+  EXPECT_EQ(image.metadata.at("replicates"), "4");
+  EXPECT_EQ(image.metadata.at("samples"), "64");
+  const reports::RenderRecord record = reports::read_render_record(scratch.file("out.json"));
+  EXPECT_EQ(record.sampler, "sobol");
+  EXPECT_EQ(record.replicates, 4u);
+}
+
 TEST(RenderCommand, SaysAtTheStartWhatItFound) {
   const Scratch scratch;
   const Outcome outcome =

@@ -18,8 +18,16 @@ void PixelMoments::add(const Rgbf& sample) {
     ++non_finite;
     return;
   }
+  add_finite(rgb_cast<double>(sample));
+}
+
+void PixelMoments::add_replicate(const PixelMoments& replicate) {
+  non_finite += replicate.non_finite;
+  if (replicate.count > 0) add_finite(replicate.mean);
+}
+
+void PixelMoments::add_finite(const Rgbd& x) {
   ++count;
-  const Rgbd x = rgb_cast<double>(sample);
   const Rgbd before = minus(x, mean);
   mean += before * (1.0 / count);
   sum_squares += before * minus(x, mean);

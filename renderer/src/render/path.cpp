@@ -25,7 +25,7 @@ Techniques counts(int bsdf, int light) {
           .draw_light = light};
 }
 
-Techniques choose_techniques(const PathOptions& options, int depth, Pcg32& random) {
+Techniques choose_techniques(const PathOptions& options, int depth, Sampler& random) {
   switch (options.strategy) {
     case Strategy::bsdf:
       return counts(1, 0);
@@ -65,7 +65,7 @@ struct Arrival {
 
 class Path {
  public:
-  Path(const Scene& scene, const PathOptions& options, Pcg32& random, PathCounters& counters)
+  Path(const Scene& scene, const PathOptions& options, Sampler& random, PathCounters& counters)
       : scene_(scene), options_(options), random_(random), counters_(counters) {}
 
   Rgbf trace(Ray ray) {
@@ -214,7 +214,7 @@ class Path {
 
   const Scene& scene_;
   const PathOptions& options_;
-  Pcg32& random_;
+  Sampler& random_;
   PathCounters& counters_;
 };
 
@@ -228,7 +228,7 @@ PathCounters& PathCounters::operator+=(const PathCounters& other) {
   return *this;
 }
 
-Rgbf estimate_radiance(const Scene& scene, const PathOptions& options, Ray ray, Pcg32& random,
+Rgbf estimate_radiance(const Scene& scene, const PathOptions& options, Ray ray, Sampler& random,
                        PathCounters& counters) {
   return Path(scene, options, random, counters).trace(ray);
 }

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <span>
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -60,6 +61,8 @@ class Renderer {
                       static_cast<std::size_t>(thread_count(options.threads))),
         arena_(thread_count(options.threads)),
         film_(scene.camera().width(), scene.camera().height()),
+        dealt_(options.sampler == SamplerType::sobol ? film_.pixels().size() * options.replicates
+                                                     : 0),
         progress_(options.progress, film_.pixels().size() * options.samples_per_pixel) {}
 
   RenderResult run() {
@@ -122,13 +125,22 @@ class Renderer {
                     PathCounters& counters) {
     PixelMoments& pixel = film_.at(x, y);
     const auto index = static_cast<std::uint64_t>(&pixel - film_.pixels().data());
+    const std::uint32_t replicates = dealt_.empty() ? 1 : options_.replicates;
+    const std::span<PixelMoments> dealt =
+        dealt_.empty() ? std::span<PixelMoments>()
+                       : std::span(dealt_).subspan(index * replicates, replicates);
     for (std::uint32_t s = first_sample; s < first_sample + samples; ++s) {
-      Pcg32 random(options_.seed, index, s);
+      Sampler random(options_.sampler, options_.seed, index * replicates + s % replicates,
+                     s / replicates);
       const Vec2f jitter = random.next_2d();
       const Ray ray =
           scene_.camera().ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
-      pixel.add(estimate_radiance(scene_, options_.path, ray, random, counters));
+      PixelMoments& moments = dealt.empty() ? pixel : dealt[s % replicates];
+      moments.add(estimate_radiance(scene_, options_.path, ray, random, counters));
     }
+    if (dealt.empty()) return;
+    pixel = {};
+    for (const PixelMoments& replicate : dealt) pixel.add_replicate(replicate);
   }
 
   static constexpr std::size_t kTileSize = 8;  // small enough that two threads end together
@@ -138,6 +150,7 @@ class Renderer {
   oneapi::tbb::global_control thread_limit_;  // an arena alone cannot exceed the number of cores
   oneapi::tbb::task_arena arena_;
   Film film_;
+  std::vector<PixelMoments> dealt_;  // under Sobol: the replicates of each pixel
   Progress progress_;
   oneapi::tbb::enumerable_thread_specific<PathCounters> counters_;
 };
@@ -149,6 +162,10 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     throw InputError(
         "paths of unlimited depth without Russian roulette may never end: set a maximum depth or a "
         "roulette depth");
+  }
+  if (options.sampler == SamplerType::sobol && options.relative_error > 0 &&
+      options.replicates < 2) {
+    throw InputError("an error limit needs at least 2 replicates of Sobol points to see an error");
   }
   return Renderer(scene, options).run();
 }

@@ -20,8 +20,15 @@ struct PixelMoments {
   void add(const Rgbf& sample);
   void merge(const PixelMoments& other);
 
+  /// Adds the mean of a replicate as one sample: what its samples share says nothing of its error.
+  /// A replicate without a finite sample is left out.
+  void add_replicate(const PixelMoments& replicate);
+
   /// Unbiased variance of one sample; 0 for fewer than two.
   Rgbd variance() const;
+
+ private:
+  void add_finite(const Rgbd& x);
 };
 
 /// An image under construction.

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include <plumbline/renderer/render/strategy.h>
-#include <plumbline/renderer/sampling/pcg32.h>
+#include <plumbline/renderer/sampling/sampler.h>
 #include <plumbline/renderer/scene/scene.h>
 
 namespace plumbline::renderer {
@@ -40,7 +40,7 @@ struct PathCounters {
 ///             every strategy with sufficient support
 /// @source     Veach 1997, Section 9.2 (multi-sample and one-sample model); RayON's loop for the
 /// order
-Rgbf estimate_radiance(const Scene& scene, const PathOptions& options, Ray ray, Pcg32& random,
+Rgbf estimate_radiance(const Scene& scene, const PathOptions& options, Ray ray, Sampler& random,
                        PathCounters& counters);
 
 }  // namespace plumbline::renderer

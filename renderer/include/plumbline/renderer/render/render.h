@@ -17,6 +17,12 @@ struct RenderOptions {
   double seconds = 0;                    ///< time limit [s]; 0: none
   double relative_error = 0;             ///< stop at this Film::relative_error(); 0: none
   std::uint64_t seed = 0;
+  SamplerType sampler = SamplerType::independent;
+  /// Sobol only: independently scrambled parts that the samples of a pixel are dealt out to, ≥ 1.
+  /// The film's variance is that between their means, and `PixelMoments::count` their number, since
+  /// the points of one scramble know nothing of their own error. 1: all points in one net, no
+  /// variance.
+  std::uint32_t replicates = 1;
   int threads = 0;  ///< 0: all cores. The image does not depend on it.
   /// Called now and then from one thread with the fraction done, in [0, 1]. May be empty.
   std::function<void(double)> progress;
@@ -32,7 +38,8 @@ struct RenderResult {
 /// Renders an image. The same scene, path options, seed and sample count give the same bits,
 /// whatever the number of threads or passes.
 ///
-/// @throws InputError for an infinite path depth without Russian roulette, which may never end
+/// @throws InputError for an infinite path depth without Russian roulette, which may never end, and
+///         for an error limit on one replicate of Sobol points, whose error is not known
 RenderResult render(const Scene& scene, const RenderOptions& options);
 
 }  // namespace plumbline::renderer

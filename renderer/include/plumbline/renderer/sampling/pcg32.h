@@ -16,6 +16,9 @@ constexpr std::uint64_t mix_bits(std::uint64_t v) {
   return v ^ (v >> 31);
 }
 
+/// The 24 top bits as a number in [0, 1): rounding all 32 to float can give 1.
+constexpr float to_unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+
 /// Independent uniform numbers (PCG32, XSH-RR). Each (seed, pixel, sample) starts its own sequence,
 /// so a sample's numbers do not depend on which thread draws them or on how many passes came
 /// before.
@@ -38,8 +41,8 @@ class Pcg32 {
     return (shifted >> rotation) | (shifted << ((0u - rotation) & 31u));
   }
 
-  /// Uniform in [0, 1): the 24 top bits, because rounding 32 bits to float can give 1.
-  float next_1d() { return static_cast<float>(next_bits() >> 8) * 0x1p-24f; }
+  /// Uniform in [0, 1).
+  float next_1d() { return to_unit(next_bits()); }
 
   Vec2f next_2d() {
     const float x = next_1d();
