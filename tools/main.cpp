@@ -26,6 +26,7 @@ constexpr const char* kExamples = R"(Examples:
   plumbline list scenes
   plumbline render furnace_sphere -o furnace.exr --strategy mis --spp 256
   plumbline compare furnace.exr --scene furnace_sphere
+  plumbline calibrate
   plumbline render bench/scenes/cornell.xml -o cornell.exr --seconds 10 --json cornell.json
 
 Exit codes: 0 fine, 1 a check did not give its expected verdict, 2 bad input or usage,
@@ -100,6 +101,7 @@ int main_of(int argc, char** argv) {
   add_list_command(app, run);
   add_render_command(app, run);
   add_compare_command(app, run);
+  add_calibrate_command(app, run);
   add_report_command(app, run);
   try {
     if (argc > 1) check_command_name(app, argv[1]);

@@ -77,6 +77,7 @@ addOverview((kind) => {
 addNotices();
 addImages();
 addVarianceRatios();
+addCalibration();
 addSpeed();
 addRayCosts();
 addFigures();

@@ -10,13 +10,24 @@ namespace {
 
 TEST(Help, ShowsExamplesOfEveryCommand) {
   const Scratch scratch;
-  for (const char* arguments :
-       {"--help", "list --help", "render --help", "compare --help", "report --help"}) {
+  for (const char* arguments : {"--help", "list --help", "render --help", "compare --help",
+                                "calibrate --help", "report --help"}) {
     const Outcome outcome = run_plumbline(scratch.path(), arguments);
     EXPECT_EQ(outcome.exit_code, 0) << arguments;
     EXPECT_NE(outcome.out.find("Example"), std::string::npos) << arguments;
     EXPECT_EQ(outcome.err, "") << arguments;
   }
+}
+
+TEST(Calibrate, PrintsATableAndItsExitCodeSaysWhetherAllIsAsPromised) {
+  const Scratch scratch;
+  const Outcome outcome =
+      run_plumbline(scratch.path(), "calibrate --only \"same code\" --results results");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("share of runs that claim a difference"), std::string::npos);
+  EXPECT_NE(outcome.out.find("agreement, same seed"), std::string::npos);
+  EXPECT_NE(scratch.read("results/calibration.jsonl").find("calibration/same code twice/"),
+            std::string::npos);
 }
 
 TEST(List, ShowsEachSceneWithItsAnswerAndParameters) {
@@ -57,6 +68,8 @@ TEST(Misuse, HasExitCodeTwoAndAMessage) {
       {"rendr", R"(there is no command "rendr"; did you mean "render"?)"},
       {"--frobnicate", R"(there is no command "--frobnicate"; supported: list)"},
       {"list planets", "planets"},
+      {"calibrate --only planets", "--only planets: no experiment has that in its name"},
+      {"calibrate --results scene.xml/x", "scene.xml"},
       {"render furnace_open", "--output is required"},
       {"render -o x.exr", "scene is required"},
       {"render furnace_opne -o x.exr",

@@ -1,5 +1,6 @@
 #include "distributions.h"
 
+#include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -37,6 +38,15 @@ double chi_square_tail(double x, double degrees) {
 
 double chi_square_quantile(double level, double degrees) {
   return bm::quantile(bm::complement(bm::chi_squared(degrees), level));
+}
+
+double beta_quantile(double probability, double a, double b) {
+  return bm::quantile(bm::beta_distribution<>(a, b), probability);
+}
+
+double binomial_at_least(double hits, double trials, double probability) {
+  // P(X ≥ k) = I_p(k, n − k + 1).
+  return bm::ibeta(hits, trials - hits + 1, probability);
 }
 
 double noncentrality_limit(double x, double degrees, double level) {

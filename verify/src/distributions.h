@@ -21,6 +21,12 @@ double chi_square_tail(double x, double degrees);
 /// x with P(X > x) = level.
 double chi_square_quantile(double level, double degrees);
 
+/// x with P(X < x) = probability, beta distribution.
+double beta_quantile(double probability, double a, double b);
+
+/// P(X >= hits), binomial.
+double binomial_at_least(double hits, double trials, double probability);
+
 /// Upper confidence limit of the noncentrality of a chi-square variable seen at x: the λ for which
 /// P(X ≤ x | λ) = level; 0 where even λ = 0 makes x improbably small.
 double noncentrality_limit(double x, double degrees, double level);

@@ -198,19 +198,26 @@ void judge_difference(const MeanQuestion& q, const Evidence& e, const std::strin
 
 }  // namespace
 
+Interval skewed_interval(double estimate, double error, double skewness, double quantile) {
+  const double below = std::max(quantile, hall_inverse(quantile, skewness));
+  const double above = std::max(quantile, -hall_inverse(-quantile, skewness));
+  return {estimate - below * error, estimate + above * error};
+}
+
+double skewed_statistic(double u, double skewness) {
+  const double corrected = hall(u, skewness);
+  if (!(corrected * u > 0)) return 0;
+  return std::min(std::abs(u), std::abs(corrected));
+}
+
 Interval mean_interval(const Evidence& e, double level) {
-  const double z = normal_quantile(level);
-  const double below = std::max(z, hall_inverse(z, e.skewness));
-  const double above = std::max(z, -hall_inverse(-z, e.skewness));
-  return {e.estimate - below * e.standard_error, e.estimate + above * e.standard_error};
+  return skewed_interval(e.estimate, e.standard_error, e.skewness, normal_quantile(level));
 }
 
 double mean_p_value(const Evidence& e, double reference) {
   const double u = (e.estimate - reference) / e.standard_error;
   if (std::isnan(u)) return 1;  // no error and no difference
-  const double corrected = hall(u, e.skewness);
-  const double z = corrected * u > 0 ? std::min(std::abs(u), std::abs(corrected)) : 0.0;
-  return std::min(1.0, 2 * normal_tail(z));
+  return std::min(1.0, 2 * normal_tail(skewed_statistic(u, e.skewness)));
 }
 
 CheckResult judge_mean(const MeanQuestion& q, const Evidence& seen) {

@@ -20,11 +20,21 @@ struct MeanQuestion {
   std::uint64_t max_samples = 0;           ///< at the last look
 };
 
-/// Interval of the true mean with `level` outside on each side: the wider of the normal one and the
-/// one corrected for skewness, at each end.
 struct Interval {
   double low, high;
 };
+
+/// estimate ± quantile · error, each end moved outwards where the skewness of the estimate asks for
+/// it (Hall 1992), never inwards.
+///
+/// @param quantile  of the distribution of (estimate − truth)/error without skewness, > 0
+Interval skewed_interval(double estimate, double error, double skewness, double quantile);
+
+/// What is left of u = (estimate − claim)/error under the same correction, ≥ 0.
+double skewed_statistic(double u, double skewness);
+
+/// Interval of the true mean with `level` outside on each side: the wider of the normal one and the
+/// one corrected for skewness, at each end.
 Interval mean_interval(const Evidence& evidence, double level);
 
 /// Two-sided p-value of the hypothesis that the true mean is `reference`: the larger of the normal

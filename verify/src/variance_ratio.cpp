@@ -6,6 +6,7 @@
 #include <plumbline/verify/variance_ratio.h>
 
 #include "distributions.h"
+#include "mean_judgement.h"
 #include "text.h"
 
 namespace plumbline::verify {
@@ -67,29 +68,45 @@ LeaveOneOut leave_one_out(std::span<const double> batches) {
   return result;
 }
 
-/// Standard error of log(a/b) by the jackknife.
-double jackknife_error(const LeaveOneOut& a, const LeaveOneOut& b) {
-  const std::size_t n = a.without.size();
-  std::vector<double> logs(n);
+/// Standard error and skewness of log(a/b) by the jackknife.
+struct JackknifedLog {
+  double error = 0, skewness = 0;
+};
+
+JackknifedLog jackknife(const LeaveOneOut& a, const LeaveOneOut& b) {
+  const double n = static_cast<double>(a.without.size());
+  std::vector<double> logs;
   double mean = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    logs[i] = std::log(a.without[i] / b.without[i]);
-    mean += logs[i] / static_cast<double>(n);
+  for (std::size_t i = 0; i < a.without.size(); ++i) {
+    logs.push_back(std::log(a.without[i] / b.without[i]));
+    mean += logs.back() / n;
   }
-  double squares = 0;
-  for (const double x : logs) squares += (x - mean) * (x - mean);
-  return std::sqrt(squares * static_cast<double>(n - 1) / static_cast<double>(n));
+  double squares = 0, cubes = 0;
+  for (const double x : logs) {
+    // What a batch adds lowers the logarithm that leaves it out.
+    const double added = mean - x;
+    squares += added * added;
+    cubes += added * added * added;
+  }
+  JackknifedLog result;
+  result.error = std::sqrt(squares * (n - 1) / n);
+  if (squares > 0) result.skewness = cubes / (squares * std::sqrt(squares));
+  return result;
 }
 
 /// Two-sided p-value of the ratio lying on the edge of the claim that is the least well kept.
-double claim_p_value(const VarianceRatioOptions& options, double log_ratio, double error,
-                     double degrees) {
+double claim_p_value(const VarianceRatioOptions& options, double log_ratio,
+                     const JackknifedLog& jackknifed, double degrees) {
+  const auto p_at = [&](double claim) {
+    const double t = (log_ratio - std::log(claim)) / jackknifed.error;
+    return student_two_sided(skewed_statistic(t, jackknifed.skewness), degrees);
+  };
   double p = 1;
   if (std::isfinite(options.at_least) && log_ratio < std::log(options.at_least)) {
-    p = student_two_sided((log_ratio - std::log(options.at_least)) / error, degrees);
+    p = p_at(options.at_least);
   }
   if (std::isfinite(options.at_most) && log_ratio > std::log(options.at_most)) {
-    p = std::min(p, student_two_sided((log_ratio - std::log(options.at_most)) / error, degrees));
+    p = std::min(p, p_at(options.at_most));
   }
   return p;
 }
@@ -141,21 +158,26 @@ CheckResult judge_ratio(const VarianceRatioOptions& options, const LeaveOneOut& 
   }
   const double degrees = static_cast<double>(a.without.size() - 1);
   const double log_ratio = std::log(r.estimate);
-  const double error = jackknife_error(a, b);
-  const double pass = student_quantile(options.budget.pass_level() / 2, degrees) * error;
-  const double fail = student_quantile(options.budget.fail_level() / 2, degrees) * error;
-  r.interval_low = std::exp(log_ratio - pass);
-  r.interval_high = std::exp(log_ratio + pass);
-  r.p_value = claim_p_value(options, log_ratio, error, degrees);
+  const JackknifedLog jackknifed = jackknife(a, b);
+  const double error = jackknifed.error;
+  const auto interval = [&](double level) {
+    return skewed_interval(log_ratio, error, jackknifed.skewness, student_quantile(level, degrees));
+  };
+  const Interval pass = interval(options.budget.pass_level() / 2);
+  const Interval fail = interval(options.budget.fail_level() / 2);
+  r.interval_low = std::exp(pass.low);
+  r.interval_high = std::exp(pass.high);
+  r.p_value = claim_p_value(options, log_ratio, jackknifed, degrees);
   // As a factor: a ratio this far beyond the claim fails with 99 % probability.
-  r.detectable = std::exp(fail + student_quantile(0.01, degrees) * error);
+  r.detectable = std::exp(std::max(fail.high - log_ratio, log_ratio - fail.low) +
+                          student_quantile(0.01, degrees) * error);
   if (!std::isfinite(error)) {
     r.reason = "a single batch holds all of a variance";
   } else if (!(std::max(a.largest_share, b.largest_share) <= kShareLimit)) {
     r.reason = "one batch carries " + number(100 * std::max(a.largest_share, b.largest_share)) +
                " % of a variance (limit 25 %): its tail decides the ratio";
   } else {
-    judge_claim(options, std::exp(log_ratio - fail), std::exp(log_ratio + fail), r);
+    judge_claim(options, std::exp(fail.low), std::exp(fail.high), r);
   }
   return r;
 }

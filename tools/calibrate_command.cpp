@@ -1,0 +1,114 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include <plumbline/calibration/experiments.h>
+#include <plumbline/renderer/scene/description.h>
+#include <plumbline/reports/results.h>
+
+#include "command.h"
+
+namespace plumbline::tools {
+namespace {
+
+struct Arguments {
+  bool full = false;
+  std::uint64_t seed = 1;
+  std::string only, results;
+};
+
+/// What each table shows, and what its numbers must be.
+std::string heading(const std::string& table) {
+  if (table == calibration::kTableNull) {
+    return "p-values of correct code: share below the level tested";
+  }
+  if (table == calibration::kTableFalseFailures) {
+    return "false failures of skewed but correct estimators: share of runs that fail";
+  }
+  if (table == calibration::kTableDetection) {
+    return "detection of errors as large as `detectable`, which promises 0.99: share of runs that "
+           "fail";
+  }
+  if (table == calibration::kTableCoverage) {
+    return "coverage: share of intervals that hold the true ratio of variances";
+  }
+  return "the same code twice: share of runs that claim a difference";
+}
+
+double figure(const verify::CheckResult& result, const std::string& name) {
+  for (const auto& [key, value] : result.figures) {
+    if (key == name) return value;
+  }
+  return verify::kNotApplicable;
+}
+
+void print_heading(const std::string& table) {
+  fmt::print("\n{}\n{:<52} {:>8} {:>9}  {:<21} {:<19} {}\n", heading(table), "", "runs", "measured",
+             "99.9 % interval", "must lie in", "verdict");
+}
+
+void print_row(const std::string& name, const verify::CheckResult& r) {
+  const std::string interval = fmt::format("[{:.3g}, {:.3g}]", r.interval_low, r.interval_high);
+  const std::string range =
+      fmt::format("[{:.3g}, {:.3g}]", figure(r, "at least"), figure(r, "at most"));
+  fmt::print("{:<52} {:>8} {:>9.4g}  {:<21} {:<19} {}{}\n", name, r.samples, r.estimate, interval,
+             range, verify::to_string(r.verdict),
+             r.as_expected() ? (r.expected == verify::Verdict::fail ? ", as it must" : "")
+                             : ", NOT as expected");
+  if (!r.as_expected()) fmt::print("    {}\n", r.reason);
+  std::fflush(stdout);  // a row can take minutes
+}
+
+std::unique_ptr<reports::ResultLog> open_log(const std::string& directory) {
+  if (directory.empty()) return nullptr;
+  try {
+    return std::make_unique<reports::ResultLog>(directory, "calibration");
+  } catch (const std::system_error& error) {
+    throw renderer::InputError(error.what());
+  }
+}
+
+int run_calibrate(const Arguments& arguments) {
+  const calibration::Effort effort{arguments.full, arguments.seed};
+  const std::unique_ptr<reports::ResultLog> log = open_log(arguments.results);
+  std::string table;
+  int rows = 0, unexpected = 0;
+  for (const calibration::Experiment& experiment : calibration::experiments()) {
+    const std::string name = experiment.table + "/" + experiment.name;
+    if (name.find(arguments.only) == std::string::npos) continue;
+    const verify::CheckResult result = calibration::run(experiment, effort);
+    if (experiment.table != table) print_heading(table = experiment.table);
+    print_row(experiment.name, result);
+    if (log) log->append(result);
+    ++rows;
+    unexpected += result.as_expected() ? 0 : 1;
+  }
+  if (rows == 0) {
+    throw std::invalid_argument("--only " + arguments.only +
+                                ": no experiment has that in its name");
+  }
+  return unexpected == 0 ? kExitFine : kExitUnexpectedVerdict;
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& app, Run& run) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("calibrate", "Measure what the checks claim: levels, power, coverage");
+  command->add_flag("--full", arguments->full, "As many runs as at night: an hour");
+  command->add_option("--seed", arguments->seed, "Seed of all runs")->type_name("N");
+  command->add_option("--only", arguments->only, "Only rows whose \"table/name\" contains this")
+      ->type_name("TEXT");
+  command->add_option("--results", arguments->results, "Directory to add the rows to, for report")
+      ->type_name("DIR");
+  command->footer("Examples:\n  plumbline calibrate\n  plumbline calibrate --full --only coverage");
+  command->callback([arguments, &run] { run = [arguments] { return run_calibrate(*arguments); }; });
+}
+
+}  // namespace plumbline::tools

@@ -1,0 +1,26 @@
+#include <plumbline/calibration/experiments.h>
+
+#include "tables.h"
+
+namespace plumbline::calibration {
+
+std::vector<Experiment> experiments() {
+  std::vector<Experiment> list;
+  add_null_experiments(list);
+  add_false_failure_experiments(list);
+  add_detection_experiments(list);
+  add_coverage_experiments(list);
+  add_same_code_experiments(list);
+  return list;
+}
+
+verify::CheckResult run(const Experiment& experiment, const Effort& effort) {
+  verify::CheckResult result = experiment.run(effort);
+  result.check = "calibration";
+  result.subject = "calibration/";
+  result.subject += experiment.table + "/" + experiment.name;
+  result.seed = effort.seed;
+  return result;
+}
+
+}  // namespace plumbline::calibration
