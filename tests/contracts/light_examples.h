@@ -42,7 +42,10 @@ struct LightExamples<renderer::SphereLight> {
         {"SphereLight/inside", SphereLight{{0, 0, 0}, 2, true, kRadiance}, {0.5f, 0.9f, -0.3f}},
         {"SphereLight/inside, at the centre",
          SphereLight{{0, 0, 0}, 2, true, kRadiance},
-         {0, 0, 0}}};
+         {0, 0, 0}},
+        {"SphereLight/outside of an inward one",
+         SphereLight{{0, 0, 0}, 2, true, kRadiance},
+         {3, 0, 0}}};
   }
 };
 
@@ -76,7 +79,10 @@ struct LightExamples<renderer::TriangleLight> {
     using renderer::TriangleLight;
     return {{"TriangleLight/overhead",
              TriangleLight{{-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, {0, 0, -1}, kRadiance},
-             {0, 0, 0}}};
+             {0, 0, 0}},
+            {"TriangleLight/thin",
+             TriangleLight{{-1, 0, 1}, {0, 0.2f, 0}, {5, 0, 0}, {0, 0, -1}, kRadiance},
+             {0.3f, 0.1f, 0}}};
   }
 };
 

@@ -51,6 +51,17 @@ TEST(Cubature, KeepsItsErrorEstimateAcrossEdges) {
   EXPECT_LE(std::abs(h.total - 1 / kPi), h.total_error);
 }
 
+TEST(Cubature, KeepsItsErrorEstimateWhereTheDensityGrowsWithoutBoundTowardsAnEdge) {
+  // The silhouette of a sphere: ∫ over r < R of 1/√(R² − r²) = 2π R.
+  const auto silhouette = [](const Point2& p) {
+    const double gap = 0.09 - std::pow(p[0] - 0.4, 2) - std::pow(p[1] - 0.55, 2);
+    return gap > 0 ? 1 / std::sqrt(gap) : 0.0;
+  };
+  const CubatureResult r = over_square(silhouette, 1e-5);
+  EXPECT_LE(r.total_error, 1e-5);
+  EXPECT_LE(std::abs(r.total - 2 * kPi * 0.3), r.total_error);
+}
+
 TEST(Cubature, SaysWhenTheIntegrandIsNotFinite) {
   EXPECT_FALSE(over_square([](const Point2& p) { return 1 / (p[0] - 0.5); }, 1e-6).finite);
 }

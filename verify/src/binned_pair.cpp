@@ -8,7 +8,9 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr std::size_t kPilotsPerBin = 16;
+// With 4096 bins, a corner of the support that holds 5e-5 of the mass is missed by all pilot samples
+// twice in a million times; a quarter of them missed one of 3.5e-5 in one run of ten.
+constexpr std::size_t kPilotsPerBin = 64;
 constexpr std::uint64_t kMaxEvaluations = 6'000'000;
 // A float direction that rounding put outside the support is within a few 2^-24 of it.
 constexpr double kRoundingDistance = 2e-6;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <queue>
 
+#include "edge_rule.h"
+
 namespace plumbline::verify {
 
 namespace {
@@ -13,46 +15,48 @@ using Integrand = std::function<double(const Point2&)>;
 struct Estimate {
   Cell cell;
   double value = 0, error = 0;
-  int split = 0;         // dimension to halve
-  bool aligned = false;  // an edge of the support runs through, along one of the axes
+  int split = 0;  // dimension to halve
   int depth = 0;
   bool sees_zero = false;
   double cut_off = 0;  // value at an edge of the support that runs through
+  std::uint64_t evaluations = 0;
 
-  /// Errors along an aligned edge have one sign, so they add up where others cancel.
-  double urgency() const { return aligned ? 8 * error : error; }
-  bool operator<(const Estimate& other) const { return urgency() < other.urgency(); }
+  bool operator<(const Estimate& other) const { return error < other.error; }
 };
 
-/// Where the nodes of a cell show the density to be 0, and where not.
+/// Where a cell shows the density to be 0, and where not.
 class SupportEdge {
  public:
   void see(double s, double t, double value) {
-    Range& range = value == 0 ? zero_ : positive_;
-    range.low = {std::min(range.low[0], s), std::min(range.low[1], t)};
-    range.high = {std::max(range.high[0], s), std::max(range.high[1], t)};
+    Group& group = value == 0 ? zero_ : positive_;
+    group.sum = {group.sum[0] + s, group.sum[1] + t};
+    ++group.count;
     largest_ = std::max(largest_, std::abs(value));
   }
 
-  bool sees_zero() const { return zero_.low[0] <= zero_.high[0]; }
-  bool crosses() const { return sees_zero() && largest_ > 0; }
+  bool sees_zero() const { return zero_.count > 0; }
+  bool crosses() const { return sees_zero() && positive_.count > 0; }
   double largest() const { return largest_; }
 
-  /// Whether a line across dimension d parts zeros from the rest.
-  bool parts(std::size_t d) const {
-    return zero_.high[d] < positive_.low[d] || positive_.high[d] < zero_.low[d];
-  }
+  /// The dimension along which zeros lie apart from the rest.
+  std::size_t across() const { return apart(0) >= apart(1) ? 0 : 1; }
 
  private:
-  struct Range {
-    Point2 low{2, 2}, high{-2, -2};
+  struct Group {
+    Point2 sum{0, 0};
+    double count = 0;
   };
-  Range zero_, positive_;
+  double apart(std::size_t d) const {
+    return std::abs(zero_.sum[d] / zero_.count - positive_.sum[d] / positive_.count);
+  }
+  Group zero_, positive_;
   double largest_ = 0;
 };
 
 /// Genz–Malik 1980, Table 1 with n = 2: λ₂ = √(9/70), λ₃ = λ₄ = √(9/10), λ₅ = √(9/19).
-Estimate apply_rule(const Integrand& f, const Cell& cell) {
+///
+/// @param border  look at corners and sides too: an edge of the support may be near
+Estimate apply_rule(const Integrand& f, const Cell& cell, bool border) {
   static const double kL2 = std::sqrt(9.0 / 70), kL4 = std::sqrt(9.0 / 10),
                       kL5 = std::sqrt(9.0 / 19);
   constexpr double kW1 = -3816.0 / 19683, kW2 = 980.0 / 6561, kW3 = 1020.0 / 19683,
@@ -87,19 +91,31 @@ Estimate apply_rule(const Integrand& f, const Cell& cell) {
   const double degree7 = area * (kW1 * f0 + kW2 * sum2 + kW3 * sum3 + kW4 * sum4 + kW5 * sum5);
   const double degree5 = area * (kE1 * f0 + kE2 * sum2 + kE3 * sum3 + kE4 * sum4);
   Estimate e{cell, degree7, std::abs(degree7 - degree5), fourth[0] >= fourth[1] ? 0 : 1};
+  e.evaluations = 17;
+  if (border) {
+    for (const double s : {-1.0, 0.0, 1.0}) {
+      for (const double t : {-1.0, 0.0, 1.0}) {
+        if (s != 0 || t != 0) at(s, t);
+      }
+    }
+    e.evaluations += 8;
+  }
   e.sees_zero = edge.sees_zero();
   if (edge.crosses()) {
-    // Across an edge the two rules may agree by chance.
-    e.error = std::max(e.error, 0.1 * area * edge.largest());
+    const std::size_t across = edge.across();
+    const EdgeEstimate lines = integrate_across_edge(f, box, across);
+    e.value = lines.value;
+    e.error = lines.across + lines.beside;
+    e.evaluations += lines.evaluations;
+    e.split = static_cast<int>(lines.across > lines.beside ? across : 1 - across);
     e.cut_off = edge.largest();
-    e.aligned = edge.parts(0) != edge.parts(1);
-    if (e.aligned) e.split = edge.parts(0) ? 0 : 1;
   }
   return e;
 }
 
-// The outermost nodes leave this share of a cell beyond them, on each side.
-constexpr double kUnseen = 0.026;
+// The outermost nodes leave 0.026 of a cell beyond them, on each side. What an edge cuts off there
+// without showing at a corner or the middle of a side is a sliver of less than half a side.
+constexpr double kUnseen = 0.026 * 0.026 / 8;
 
 class Integrator {
  public:
@@ -110,13 +126,18 @@ class Integrator {
   }
 
   void add(const Cell& cell, int depth) {
-    Estimate e = apply_rule(f_, cell);
+    Estimate e = apply_rule(f_, cell, cell.edge_doubt > 0 || cell.doubt > 0);
     e.depth = depth;
     if (e.value == 0) e.split = depth % 2;
     heed_points(e);
     // Next to an edge, or far from all pilot points, agreeing nodes prove little.
-    if (e.value == 0 || e.cell.beside_edge) e.error = std::max(e.error, e.cell.doubt);
-    result_.evaluations += 17;
+    const bool crosses = e.cut_off > 0;
+    const bool has_points = e.cell.first < e.cell.last;
+    if (crosses ? !has_points : e.value == 0 || e.cell.edge_doubt > 0) {
+      e.error = std::max(e.error, e.cell.doubt);
+    }
+    if (!crosses) e.error = std::max(e.error, e.cell.edge_doubt);
+    result_.evaluations += e.evaluations;
     count_error(e, 1);
     queue_.push(e);
   }
@@ -145,7 +166,7 @@ class Integrator {
   }
 
   CubatureResult finish() {
-    aligned_ = sum_ = sum_squares_ = 0;  // again, without the rounding of all the updates
+    sum_ = sum_squares_ = 0;  // again, without the rounding of all the updates
     for (; !queue_.empty(); queue_.pop()) {
       const Estimate& e = queue_.top();
       result_.finite = result_.finite && std::isfinite(e.value);
@@ -161,25 +182,17 @@ class Integrator {
  private:
   static void divide_doubt(const Estimate& parent, Cell& child) {
     child.doubt = parent.cell.doubt / 8;
-    child.beside_edge = parent.cut_off > 0;
-    if (!child.beside_edge) return;
     const double area =
         (child.box.high[0] - child.box.low[0]) * (child.box.high[1] - child.box.low[1]);
-    child.doubt = std::max(child.doubt, kUnseen * area * parent.cut_off);
+    child.edge_doubt = kUnseen * area * parent.cut_off;
   }
 
   void count_error(const Estimate& e, int sign) {
-    if (e.aligned) {
-      aligned_ += sign * e.error;
-    } else {
-      sum_ += sign * e.error;
-      sum_squares_ += sign * e.error * e.error;
-    }
+    sum_ += sign * e.error;
+    sum_squares_ += sign * e.error * e.error;
   }
 
-  double error() const {
-    return aligned_ + 2 * std::sqrt(std::max(0.0, sum_squares_)) + 0.05 * sum_;
-  }
+  double error() const { return 2 * std::sqrt(std::max(0.0, sum_squares_)) + 0.05 * sum_; }
 
   /// Raises the error of a cell that shows improbably little for its points: with λ expected, c
   /// points come with probability below 0.05 if λ < (c − 0.8)/4.
@@ -195,14 +208,14 @@ class Integrator {
   const Integrand& f_;
   std::vector<Point2>& points_;
   std::priority_queue<Estimate> queue_;
-  double aligned_ = 0, sum_ = 0, sum_squares_ = 0;
+  double sum_ = 0, sum_squares_ = 0;
   CubatureResult result_;
 };
 
 }  // namespace
 
 bool shows_zero(const Integrand& f, const Box& box) {
-  return apply_rule(f, Cell{box, 0, 0, 0, 0}).sees_zero;
+  return apply_rule(f, Cell{box, 0, 0, 0}, true).sees_zero;
 }
 
 CubatureResult integrate(const Integrand& f, const std::vector<Cell>& cells,

@@ -23,11 +23,12 @@ struct Cell {
   /// a thin support.
   std::size_t first = 0, last = 0;
 
-  /// What may hide here although all nodes agree: the edge of the support runs nearby, and the
-  /// nodes leave out a fortieth of the cell at each side. Counts as error where the rule gives 0
-  /// and, if `beside_edge`, also where it does not.
+  /// What may hide here although all nodes agree: a thin support, of which the pilot points show
+  /// the neighbourhood. Counts as error where the rule gives 0 or an edge of the support is near.
   double doubt = 0;
-  bool beside_edge = false;
+
+  /// The same of an edge that was seen beside this cell, and may run through it past all nodes.
+  double edge_doubt = 0;
 };
 
 struct CubatureResult {

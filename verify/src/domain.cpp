@@ -133,7 +133,7 @@ class DirectionChart final : public Chart {
     return normalized(moved);
   }
   double distance(const Vec3& w) const override {
-    const double length_error = std::abs(std::hypot(w[0], w[1], w[2]) - 1);
+    const double length_error = std::abs(std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) - 1);
     // |z| beyond the horizon, for a hemisphere.
     const double beyond = outside(w[2], 1 - 2 * (first_ + extent_), 1 - 2 * first_);
     return std::max(length_error, extent_ < 1 ? beyond : 0.0);
