@@ -6,6 +6,7 @@
 
 #include <plumbline/verify/bsdf.h>
 
+#include "chi_square_look.h"
 #include "constant_diagnosis.h"
 
 namespace plumbline::verify {
@@ -34,7 +35,8 @@ std::vector<View> views_of(const BsdfOptions& options) {
     const char* face = front ? "front" : "back";
     const auto add = [&](double cosine, double sine) {
       const double phi = 2 * std::numbers::pi * random.uniform();
-      const Vec3 wo{sine * std::cos(phi), sine * std::sin(phi), side * cosine};
+      // + 0: no −0 in what a person reads.
+      const Vec3 wo{sine * std::cos(phi) + 0.0, sine * std::sin(phi) + 0.0, side * cosine};
       views.push_back({wo, view_name(wo, face)});
     };
     for (const double degrees : options.angles) {
@@ -82,7 +84,10 @@ std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& b
       results.push_back(check_energy(subject, bsdf, view.wo, here));
     }
     if (saw_atoms(results)) results.push_back(check_atoms(subject, bsdf, view.wo, here));
-    for (CheckResult& r : results) all.push_back(std::move(r));
+    for (CheckResult& r : results) {
+      if (!r.as_expected()) r.reason += "; wo = " + place(view.wo) + ", z the normal";
+      all.push_back(std::move(r));
+    }
   }
   if (options.reciprocal) all.push_back(check_reciprocity(name, bsdf, options));
   const std::string of_view = constants.diagnosis();

@@ -118,13 +118,23 @@ auto numbers_type() {
   }
 }
 
+/// A generator of the user's own that a check can seed.
+template <class G>
+concept SeededGenerator = requires(typename G::result_type seed) {
+  G(seed);
+  G::min();
+  G::max();
+};
+
 /// How `sample` wants its random numbers.
-enum class NumbersStyle { generator, three, two, vector };
+enum class NumbersStyle { generator, own_generator, three, two, vector };
 
 template <class B, class D, class T, class N>
 constexpr NumbersStyle numbers_style() {
   if constexpr (requires(const B& b, const D& d, Random& r) { b.sample(d, r); }) {
     return NumbersStyle::generator;
+  } else if constexpr (SeededGenerator<N>) {
+    return NumbersStyle::own_generator;
   } else if constexpr (requires(const B& b, const D& d, T u) { b.sample(d, u, u, u); }) {
     return NumbersStyle::three;
   } else if constexpr (requires(const B& b, const D& d, T u) { b.sample(d, u, u); }) {
@@ -132,7 +142,7 @@ constexpr NumbersStyle numbers_style() {
   } else {
     static_assert(!std::is_void_v<N>,
                   "sample takes neither numbers nor a verify::Random: name the type of its random "
-                  "numbers, check_bsdf<Direction, Numbers>(…)");
+                  "numbers or of its generator, check_bsdf<Direction, Numbers>(…)");
     return NumbersStyle::vector;
   }
 }
@@ -182,6 +192,12 @@ ErasedBsdf erase(const B& bsdf) {
     e.draw = [bsdf](const Vec3& wo, Random& random) {
       return read_record(bsdf.sample(from_vec3<D>(wo), random));
     };
+  } else if constexpr (style == NumbersStyle::own_generator) {
+    // Seeded for each sample, so that a sample depends on nothing but the check's seed.
+    e.draw = [bsdf](const Vec3& wo, Random& random) {
+      N generator(static_cast<typename N::result_type>(random.bits()));
+      return read_record(bsdf.sample(from_vec3<D>(wo), generator));
+    };
   } else if constexpr (style == NumbersStyle::three) {
     e.numbers = 3;
     e.sample = [bsdf](const Vec3& wo, const Uniforms& u) {
@@ -205,10 +221,11 @@ ErasedBsdf erase(const B& bsdf) {
 }  // namespace detail
 
 /// Erases the types of a BSDF with
-///   sample(wo, u)   u: two numbers, three, a vector of two or three, or a verify::Random&; returns
-///   a
-///                   record, an optional or a pointer to one, with wi (or direction, dir, w), and
-///                   if it has them weight (value, throughput, f), pdf_w (pdf), mass or is_delta
+///   sample(wo, u)   u: two numbers, three, a vector of two or three, or a generator: a
+///                   verify::Random& or one of its own with result_type, min, max and a constructor
+///                   from a seed; returns a record, an optional or a pointer to one, with wi (or
+///                   direction, dir, w), and if it has them weight (value, throughput, f), pdf_w
+///                   (pdf), mass or is_delta
 ///   pdf(wo, wi)
 ///   eval(wo, wi)    a number, or a colour with r, g, b or x, y, z, or anything with size() and [],
 /// and, if it exposes its lobes,

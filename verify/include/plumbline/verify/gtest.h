@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,13 @@ namespace plumbline::verify {
 
 namespace detail {
 
+/// The command that runs this test again; its seeds are in the test's code.
 inline std::string replay_of_running_test() {
   const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
   if (test == nullptr) return {};
-  return std::string("--gtest_filter=") + test->test_suite_name() + "." + test->name();
+  const std::vector<std::string> arguments = testing::internal::GetArgvs();
+  std::string command = arguments.empty() ? std::string() : arguments.front() + " ";
+  return command + "--gtest_filter=" + test->test_suite_name() + "." + test->name();
 }
 
 inline testing::AssertionResult as_expected(const char*, CheckResult result) {
@@ -24,22 +28,30 @@ inline testing::AssertionResult as_expected(const char*, CheckResult result) {
   return testing::AssertionFailure() << describe(result);
 }
 
-/// One message: what is likely wrong first, then each result that is not as expected.
+/// One message: what is likely wrong, the first failing result of each kind in full (they mostly
+/// share one cause), the names of the others, how to run it again.
 inline testing::AssertionResult as_expected(const char*, const std::vector<CheckResult>& results) {
   std::size_t failed = 0;
-  std::string text, cause;
+  std::set<std::string> kinds;
+  std::string cause, in_full, others;
   for (CheckResult r : results) {
     if (r.as_expected()) continue;
     ++failed;
     if (cause.empty()) cause = r.diagnosis;
-    if (r.replay.empty()) r.replay = replay_of_running_test();
-    text += describe(r);
+    if (kinds.insert(r.check).second) {
+      if (r.diagnosis == cause) r.diagnosis.clear();
+      in_full += describe(r);
+    } else {
+      others += "  " + r.subject + "\n";
+    }
   }
   if (failed == 0) return testing::AssertionSuccess();
   testing::AssertionResult failure = testing::AssertionFailure();
   failure << failed << " of " << results.size() << " checks did not give what they should\n";
   if (!cause.empty()) failure << "likely cause: " << cause << "\n";
-  return failure << text;
+  failure << in_full;
+  if (!others.empty()) failure << "in the same way:\n" << others;
+  return failure << "replay: " << replay_of_running_test();
 }
 
 }  // namespace detail

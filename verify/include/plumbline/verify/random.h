@@ -11,8 +11,12 @@ namespace plumbline::verify {
 /// Each (seed, stream) starts a sequence of its own.
 ///
 /// @source Blackman, Vigna 2021, "Scrambled linear pseudorandom number generators"
+///
+/// A uniform random bit generator in the standard's sense: std distributions take it too.
 class Random {
  public:
+  using result_type = std::uint64_t;
+
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0) {
     std::uint64_t s = mix(seed) + stream;
     for (auto& word : state_) word = mix(s += 0x9e3779b97f4a7c15u);
@@ -29,6 +33,10 @@ class Random {
     state_[3] = rotl(state_[3], 45);
     return result;
   }
+
+  static constexpr std::uint64_t min() { return 0; }
+  static constexpr std::uint64_t max() { return ~std::uint64_t{0}; }
+  std::uint64_t operator()() { return bits(); }
 
   /// Uniform in [0, 1), a multiple of 2^-53. Rounded to float it can become 1: use `uniform_float`.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
