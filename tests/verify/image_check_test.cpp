@@ -145,6 +145,46 @@ TEST(ImageCheck, ProvesNothingFromPixelsThatNothingHasHit) {
   expect_verdict(check_image(o, image, reference).check);
 }
 
+/// Light of mean 1 that one sample in `rarity` hits, over a faint glow.
+Image rarely_lit(std::uint64_t seed, int spp, double rarity, double glow) {
+  Image image{kWidth, kHeight, {}, {}, {}};
+  Random random(seed);
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    Moments m;
+    for (int s = 0; s < spp; ++s) {
+      m.add(glow * random.uniform() + rarity * tests::Bernoulli{1 / rarity}(random));
+    }
+    image.mean.push_back(m.mean());
+    image.variance.push_back(m.variance());
+    image.count.push_back(spp);
+  }
+  return image;
+}
+
+TEST(ImageCheck, ARenderThatSeldomHitsTheLightNeverDiffersFromOneThatAlwaysDoes) {
+  for (const double rarity : {50.0, 1'000.0, 100'000.0}) {
+    for (const double glow : {0.0, 0.1}) {
+      ImageOptions o = options("image/seldom hit against always hit", Verdict::inconclusive);
+      o.seed += static_cast<std::uint64_t>(rarity * (1 + glow));
+      o.tolerance = 1e-4;  // undecided: nothing is to fail
+      const Image seldom = rarely_lit(o.seed, 64, rarity, glow);
+      const Image always = rarely_lit(o.seed + 1, 64, 1, glow);
+      expect_verdict(check_image(o, seldom, always).check);
+      expect_verdict(check_image(o, always, seldom).check);
+    }
+  }
+}
+
+TEST(ImageCheck, ABlackImageWithoutVarianceProvesNothing) {
+  Image black = exact();
+  black.mean.assign(black.mean.size(), 0.0);
+  expect_verdict(check_image(options("image/black", Verdict::inconclusive), black, exact()).check);
+  // With as many samples as make zeros believable it is wrong.
+  black.variance.assign(black.mean.size(), 0.0);
+  black.count.assign(black.mean.size(), 1024);
+  expect_verdict(check_image(options("image/black for good", Verdict::fail), black, exact()).check);
+}
+
 TEST(ImageCheck, NeverPassesAPixelThatIsNotFinite) {
   const ImageOptions o = options("image/NaN", Verdict::fail);
   Image image = render(o.seed, 64, unbiased);

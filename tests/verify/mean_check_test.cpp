@@ -111,6 +111,28 @@ TEST(MeanCheck, WaitsWhileNothingIsHitAndFailsWhenNothingEverIs) {
   EXPECT_LE(r.samples, 2500u);
 }
 
+TEST(MeanCheck, WaitsWhileAllSamplesMissTheLargerPartOfTheAnswer) {
+  // A sky of mean ½ and a sun that one sample in 100,000 hits: the answer is 10.5.
+  const auto sky_and_sun = [](Random& r) { return r.uniform() < 1e-5 ? 1e6 : r.uniform(); };
+  MeanOptions o = options("mean/sun not hit yet", 10.5);
+  o.expected = Verdict::inconclusive;
+  o.max_samples = 1 << 18;
+  for (int i = 0; i < 20; ++i, ++o.seed) expect_verdict(run(o, sky_and_sun));
+  // A constant sky proves no more.
+  const auto flat_sky = [](Random& r) { return r.uniform() < 1e-5 ? 1e6 : 0.5; };
+  o.subject = "mean/sun not hit yet, constant sky";
+  for (int i = 0; i < 20; ++i, ++o.seed) expect_verdict(run(o, flat_sky));
+  // Without a sun a million samples show it, and a smaller part is missed at once.
+  o = options("mean/no sun", 10.5);
+  o.expected = Verdict::fail;
+  expect_verdict(run(o, [](Random& r) { return r.uniform(); }));
+  o = options("mean/ten percent below, all samples", 1);
+  o.expected = Verdict::fail;
+  const CheckResult r = run(o, [](Random& random) { return 0.85 + 0.1 * random.uniform(); });
+  expect_verdict(r);
+  EXPECT_LE(r.samples, 20'000u);
+}
+
 TEST(MeanCheck, ProvesDarknessWithAnAbsoluteTolerance) {
   MeanOptions o = options("mean/dark", 0, 1e-6);
   o.relative = false;

@@ -20,12 +20,13 @@ constexpr double kSamplesPerPixel = 32;
 
 /// Sums over the pixels of one tile.
 struct Tile {
-  double pixels = 0, samples = 0;
+  double pixels = 0, samples = 0, reference_samples = 0;
   double residual = 0;     // mean over pixels
   double error2 = 0;       // squared standard error of `residual`
   double degrees = 0;      // of freedom of error2
   double skewness = 0;     // of `residual`
-  double reference = 0;    // mean over pixels
+  double image = 0;        // mean over pixels
+  double reference = 0;    // the same
   bool dark = true;        // every pixel is 0
   bool all_differ = true;  // every pixel is off by more than rounding
 };
@@ -50,16 +51,19 @@ Tile sum_tile(const Residuals& r, int x0, int y0, int edge, double allowance) {
                             static_cast<std::size_t>(x);
       inside.push_back(r.residual[i]);
       tile.residual += r.residual[i];
+      tile.image += r.image[i];
       tile.reference += r.reference[i];
       tile.dark = tile.dark && r.image[i] == 0;
       tile.all_differ =
           tile.all_differ && std::abs(r.residual[i]) > allowance * std::abs(r.reference[i]);
       if (!r.variance.empty()) variance += r.variance[i];
       if (!r.samples.empty()) tile.samples += r.samples[i];
+      if (!r.reference_samples.empty()) tile.reference_samples += r.reference_samples[i];
     }
   }
   tile.pixels = static_cast<double>(inside.size());
   tile.residual /= tile.pixels;
+  tile.image /= tile.pixels;
   tile.reference /= tile.pixels;
   if (r.variance.empty()) {
     double squares = 0;
@@ -111,9 +115,24 @@ TileTest test_noiseless(const Tile& tile, double excess) {
   return {0, 0, std::numeric_limits<double>::infinity()};
 }
 
+/// One of the renders shows less than half of what the other side does, from few samples: what
+/// carries the rest may be light that none, or too few of them, have hit, and that its variance
+/// does not know of.
+bool misses_most(const Residuals& r, const Tile& tile) {
+  const double image = std::abs(tile.image), reference = std::abs(tile.reference);
+  const bool image_is_lower = image < reference;
+  if (!(std::min(image, reference) < std::max(image, reference) / 2)) return false;
+  if (image_is_lower) {
+    // Of an image without variance only darkness is doubted: its noise is seen in the residuals.
+    return r.samples.empty() ? tile.dark : tile.samples < kEnoughZeros;
+  }
+  return !r.reference_samples.empty() && tile.reference_samples < kEnoughZeros;
+}
+
 TileTest test_tile(const Residuals& r, const Tile& tile, double around2, double allowance) {
   const double excess =
       std::max(0.0, std::abs(tile.residual) - allowance * std::abs(tile.reference));
+  if (misses_most(r, tile)) return {};
   if (!(around2 > 0)) return test_noiseless(tile, excess);
   TileTest test;
   const double own = std::sqrt(tile.error2);
@@ -140,6 +159,7 @@ Residuals make_residuals(const Image& image, const Image& reference) {
   r.image = image.mean;
   r.reference = reference.mean;
   r.samples = image.count;
+  r.reference_samples = reference.count;
   const std::size_t n = image.mean.size();
   for (std::size_t i = 0; i < n; ++i) {
     r.residual.push_back(image.mean[i] - reference.mean[i]);

@@ -10,11 +10,12 @@ namespace plumbline::verify {
 /// What is known per pixel.
 struct Residuals {
   int width = 0, height = 0;
-  std::vector<double> residual;   ///< image − reference
-  std::vector<double> variance;   ///< of the residual; empty where it must come from the residuals
-  std::vector<double> samples;    ///< per pixel, of the image; empty where unknown
-  std::vector<double> image;      ///< mean
-  std::vector<double> reference;  ///< mean
+  std::vector<double> residual;  ///< image − reference
+  std::vector<double> variance;  ///< of the residual; empty where it must come from the residuals
+  std::vector<double> samples;   ///< per pixel, of the image; empty where unknown
+  std::vector<double> reference_samples;  ///< per pixel; empty where the reference is exact
+  std::vector<double> image;              ///< mean
+  std::vector<double> reference;          ///< mean
 
   std::size_t size() const { return residual.size(); }
 };

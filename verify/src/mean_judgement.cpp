@@ -41,6 +41,20 @@ bool is_nearly_constant(const Evidence& e, double tolerance) {
 
 bool is_all_zero(const Evidence& e) { return e.smallest == 0 && e.largest == 0; }
 
+/// All samples lie nearer to 0 than the answer, and more than half of it is not there: what carries
+/// the rest may be too rare to have been hit, like the whole of it where all samples are 0.
+bool misses_most(const MeanQuestion& q, const Evidence& e) {
+  const double farthest = std::max(std::abs(e.smallest), std::abs(e.largest));
+  return farthest < std::abs(q.reference) &&
+         std::abs(q.reference - e.estimate) > std::abs(q.reference) / 2 &&
+         e.samples < kEnoughZerosToFail;
+}
+
+std::string most_is_missing(const MeanQuestion& q, const Evidence& e) {
+  return "all " + number(e.samples) + " samples lie below the answer " + number(q.reference) +
+         ", their mean at less than half of it: what carries the rest may not have been hit yet";
+}
+
 /// Chance, at most, that n samples all lie `distance` or more to the same side of their true mean:
 /// each does with probability ≤ σ²/(σ² + distance²) (Cantelli).
 double chance_of_distance(double variance, double distance, std::uint64_t n) {
@@ -146,6 +160,8 @@ void judge_nearly_constant(const MeanQuestion& q, const Evidence& e, CheckResult
           : 1.0;
   if (e.samples < kMinimumSamples) {
     r.reason = "only " + number(e.samples) + " samples; at least 1000 are needed";
+  } else if (misses_most(q, e)) {
+    r.reason = most_is_missing(q, e);
   } else if (excess > doubt(e.samples, q.fail_level)) {
     r.verdict = Verdict::fail;
     r.reason =
@@ -246,6 +262,7 @@ CheckResult judge_mean(const MeanQuestion& q, const Evidence& seen) {
   r.leaned_on = exact ? "exact variance" : "skewness guard";
   std::string doubt = guard(e);
   if (doubt.empty() && exact) doubt = exact_variance_doubt(seen, e);
+  if (doubt.empty() && !exact && misses_most(q, seen)) doubt = most_is_missing(q, seen);
   if (std::isinf(q.exact_variance)) doubt = "the variance is known to be infinite";
   judge_difference(q, e, doubt, r);
   return r;

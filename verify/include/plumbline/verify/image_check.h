@@ -48,7 +48,8 @@ struct ImageResult {
 /// estimated from the residuals in each tile, and single pixels are not judged. A tile is judged
 /// where its noise is not too skewed for its size; its z-score is the less extreme of the one with
 /// its own variance and the one with its neighbourhood's, so that a pixel that nothing has hit yet
-/// proves nothing.
+/// proves nothing. Nor does one where a render shows less than half of what the other side does,
+/// from fewer than 2^20 samples: light that none of them has hit is not in its variance.
 ///
 /// @param reference  without variance: exact, averaged over each pixel's footprint; with: a second
 /// render
