@@ -87,6 +87,11 @@ TEST(Convention, WorldFrameAroundANormal) {
   expect_needed(InFrame{{}, {0.8, 0, -0.6}, {0, 1, 0}, {0.6, 0, 0.8}}, c);
 }
 
+TEST(Convention, BlackFromEveryDirectionIsNoPass) {
+  // Below the horizon of a frame that nobody stated: every check of black is right.
+  EXPECT_FALSE(passes(InFrame{{}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}}));
+}
+
 /// A tenth of the samples fails, and says so by a pdf of 0.
 struct ZeroPdf : Lambert {
   Record sample(const V& wo, double u, double v) const {

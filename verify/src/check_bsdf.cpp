@@ -66,6 +66,28 @@ bool saw_atoms(const std::vector<CheckResult>& results) {
   return false;
 }
 
+bool gives_samples(const SamplingPair& pair, std::uint64_t seed) {
+  constexpr int kTries = 1'000;
+  Random random(seed, 10);
+  for (int i = 0; i < kTries; ++i) {
+    if (pair.next(random)) return true;
+  }
+  return false;
+}
+
+/// Nothing is wrong with black, and every check of it passes: but more often than not it stands for
+/// a convention that was not stated.
+CheckResult black_everywhere(const std::string& name, const BsdfOptions& options) {
+  CheckResult r;
+  r.check = "samples";
+  r.subject = name + "/samples";
+  r.seed = options.contract.seed;
+  r.reason =
+      "no direction gives any sample: are the frame and the side that the given direction points "
+      "to as the conventions say?";
+  return r;
+}
+
 }  // namespace
 
 std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& bsdf,
@@ -73,11 +95,14 @@ std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& b
   std::vector<CheckResult> all;
   ConstantByView constants;
   const std::vector<View> views = views_of(options);
+  bool black = true;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const View& view = views[i];
     const BsdfOptions here = for_view(options, i);
     const std::string subject = name + "/" + view.name;
-    PairOutcome outcome = judge_pair(bsdf_pair(subject, bsdf, view.wo, here), here.contract);
+    const SamplingPair pair = bsdf_pair(subject, bsdf, view.wo, here);
+    black = black && !gives_samples(pair, here.contract.seed);
+    PairOutcome outcome = judge_pair(pair, here.contract);
     constants.add(view.wo, outcome.cause);
     std::vector<CheckResult>& results = outcome.results;
     if (options.conserves_energy || options.albedo) {
@@ -90,6 +115,7 @@ std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& b
     }
   }
   if (options.reciprocal) all.push_back(check_reciprocity(name, bsdf, options));
+  if (black) all.push_back(black_everywhere(name, options));
   const std::string of_view = constants.diagnosis();
   for (CheckResult& r : all) {
     if (!of_view.empty() && !r.diagnosis.empty()) r.diagnosis = of_view;

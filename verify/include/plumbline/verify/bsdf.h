@@ -46,7 +46,8 @@ struct BsdfOptions {
 /// The whole battery on a BSDF: check_pair for each direction, and reciprocity, energy and atoms.
 /// All directions are in the local frame, z the normal, pointing away from the surface.
 ///
-/// Results are named name/face angle/check.
+/// Results are named name/face angle/check. A BSDF that gives no sample from any direction stays
+/// inconclusive: most likely a convention is not stated.
 std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& bsdf,
                                     const BsdfOptions& options = {});
 
