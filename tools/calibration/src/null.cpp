@@ -25,7 +25,7 @@ struct Runs {
   std::uint64_t gate, full;  ///< p-values to collect
 };
 
-Experiment uniform_experiment(std::string name, Runs runs, PValues p_values,
+Experiment uniform_experiment(std::string name, Runs runs, const PValues& p_values,
                               verify::Verdict expected = verify::Verdict::pass) {
   const auto run = [=](const Effort& effort) {
     std::vector<double> all;
