@@ -41,7 +41,8 @@ TEST(List, ShowsEachSceneWithItsAnswerAndParameters) {
 
 TEST(List, NamesAreForScripts) {
   const Scratch scratch;
-  EXPECT_EQ(run_plumbline(scratch.path(), "list heuristics --names").out, "balance\npower\n");
+  EXPECT_EQ(run_plumbline(scratch.path(), "list heuristics --names").out,
+            "balance\npower\ncutoff\nmaximum\n");
   EXPECT_EQ(run_plumbline(scratch.path(), "list shapes --names").out,
             "sphere\nrectangle\ndisk\nobj\n");
 }
