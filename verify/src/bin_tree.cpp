@@ -24,7 +24,9 @@ struct Gap {
   std::size_t dimension = 0;
 };
 
-Gap largest_gap(std::vector<Point2>::iterator begin, std::vector<Point2>::iterator end) {
+Gap largest_gap(const Cell& cell, std::vector<Point2>& points) {
+  const auto begin = points.begin() + static_cast<std::ptrdiff_t>(cell.first);
+  const auto end = points.begin() + static_cast<std::ptrdiff_t>(cell.last);
   Gap largest;
   if (end - begin < 4) return largest;
   for (std::size_t d = 0; d < 2; ++d) {
@@ -82,15 +84,23 @@ Cuts cut_around(double low, double high, double first_point, double last_point) 
   return cuts;
 }
 
+/// Range of the points of a cell, empty: low > high.
+Box range_of(const Cell& cell, const std::vector<Point2>& points) {
+  Box range{cell.box.high, cell.box.low};
+  for (std::size_t i = cell.first; i < cell.last; ++i) {
+    for (std::size_t d = 0; d < 2; ++d) {
+      range.low[d] = std::min(range.low[d], points[i][d]);
+      range.high[d] = std::max(range.high[d], points[i][d]);
+    }
+  }
+  return range;
+}
+
 void add_cells(const std::vector<Point2>& points, const Cell& whole, std::vector<Cell>& cells) {
   std::array<Cuts, 2> cuts;
+  const Box range = range_of(whole, points);
   for (std::size_t d = 0; d < 2; ++d) {
-    double low = whole.box.high[d], high = whole.box.low[d];
-    for (std::size_t i = whole.first; i < whole.last; ++i) {
-      low = std::min(low, points[i][d]);
-      high = std::max(high, points[i][d]);
-    }
-    cuts[d] = cut_around(whole.box.low[d], whole.box.high[d], low, high);
+    cuts[d] = cut_around(whole.box.low[d], whole.box.high[d], range.low[d], range.high[d]);
   }
   const double mass =
       static_cast<double>(whole.last - whole.first) / static_cast<double>(points.size());
@@ -110,28 +120,55 @@ void add_cells(const std::vector<Point2>& points, const Cell& whole, std::vector
   }
 }
 
-void add_clusters(std::vector<Point2>& points, const Cell& whole, std::vector<Cell>& cells) {
-  const auto begin = points.begin() + static_cast<std::ptrdiff_t>(whole.first);
-  const auto end = points.begin() + static_cast<std::ptrdiff_t>(whole.last);
-  const Gap gap = largest_gap(begin, end);
-  if (gap.share < kClusterGap) {
-    add_cells(points, whole, cells);
-    return;
-  }
-  const auto cut =
-      std::partition(begin, end, [&](const Point2& p) { return p[gap.dimension] < gap.middle; });
-  if (cut == begin || cut == end) {  // neighbouring numbers: no room for a cut
-    add_cells(points, whole, cells);
-    return;
-  }
-  Cell low = whole, high = whole;
-  low.last = high.first = static_cast<std::size_t>(cut - points.begin());
-  low.box.high[gap.dimension] = high.box.low[gap.dimension] = gap.middle;
-  add_clusters(points, low, cells);
-  add_clusters(points, high, cells);
+/// Both sides of a cell, with their points.
+std::array<Cell, 2> cut_at(const Cell& cell, std::size_t d, double place,
+                           std::vector<Point2>& points) {
+  std::array<Cell, 2> sides{cell, cell};
+  const auto cut = std::partition(points.begin() + static_cast<std::ptrdiff_t>(cell.first),
+                                  points.begin() + static_cast<std::ptrdiff_t>(cell.last),
+                                  [&](const Point2& p) { return p[d] < place; });
+  sides[0].last = sides[1].first = static_cast<std::size_t>(cut - points.begin());
+  sides[0].box.high[d] = sides[1].box.low[d] = place;
+  return sides;
 }
 
 }  // namespace
+
+void add_cells_of_even_points(const Cell& cell, std::vector<Point2>& points,
+                              std::vector<Cell>& cells) {
+  constexpr std::size_t kFewest = 6;  // fewer leave half of a cell by chance
+  std::optional<std::size_t> uneven;
+  const Box range = range_of(cell, points);
+  for (std::size_t d = 0; d < 2 && cell.last - cell.first >= kFewest; ++d) {
+    const double width = range.high[d] - range.low[d];
+    // Points that are all equal would never part.
+    if (width > 0 && width < (cell.box.high[d] - cell.box.low[d]) / 2) uneven = d;
+  }
+  const Gap gap = largest_gap(cell, points);
+  if (!uneven && gap.share >= kClusterGap) uneven = gap.dimension;
+  if (!uneven) {
+    cells.push_back(cell);
+    return;
+  }
+  const double middle = (cell.box.low[*uneven] + cell.box.high[*uneven]) / 2;
+  for (const Cell& half : cut_at(cell, *uneven, middle, points)) {
+    add_cells_of_even_points(half, points, cells);
+  }
+}
+
+void add_cells_around_points(const Cell& cell, std::vector<Point2>& points,
+                             std::vector<Cell>& cells) {
+  const Gap gap = largest_gap(cell, points);
+  if (gap.share >= kClusterGap) {
+    const auto [low, high] = cut_at(cell, gap.dimension, gap.middle, points);
+    if (low.first < low.last && high.first < high.last) {  // else neighbouring numbers: no room
+      add_cells_around_points(low, points, cells);
+      add_cells_around_points(high, points, cells);
+      return;
+    }
+  }
+  add_cells(points, cell, cells);
+}
 
 BinTree::BinTree(std::vector<Point2>& points, int depth, int dimension)
     : depth_(depth),
@@ -165,13 +202,24 @@ void BinTree::build(std::vector<Point2>& points, std::size_t first, std::size_t 
   build(points, middle, last, 2 * node + 1, level + 1, high);
 }
 
-Cell BinTree::cell(std::size_t bin) const {
-  return {boxes_[bin], bin, first_[bin], first_[bin + 1], 0};
-}
-
-void BinTree::add_cells_around_points(std::size_t bin, std::vector<Point2>& points,
-                                      std::vector<Cell>& cells) const {
-  add_clusters(points, cell(bin), cells);
+std::vector<Cell> BinTree::cells(std::size_t bin, std::optional<double> break_line,
+                                 std::vector<Point2>& points) const {
+  const Cell whole{boxes_[bin], bin, first_[bin], first_[bin + 1], 0};
+  if (!break_line || !(whole.box.low[0] < *break_line && *break_line < whole.box.high[0])) {
+    return {whole};
+  }
+  auto [low, high] = cut_at(whole, 0, *break_line, points);
+  // Nodes on the line itself would be on neither side; so thin a gap holds nothing.
+  constexpr double kGap = 0x1p-51;
+  low.box.high[0] -= kGap;
+  high.box.low[0] += kGap;
+  // A piece that no point of the bin is in may still hold a part of its mass.
+  const double mass =
+      static_cast<double>(whole.last - whole.first) / static_cast<double>(points.size());
+  for (Cell* piece : {&low, &high}) {
+    if (piece->first == piece->last) piece->doubt = mass / 4;
+  }
+  return {low, high};
 }
 
 }  // namespace plumbline::verify

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "cubature.h"
@@ -31,13 +32,9 @@ class BinTree {
 
   const Box& box(std::size_t bin) const { return boxes_[bin]; }
 
-  /// A bin as one cell, with its pilot points.
-  Cell cell(std::size_t bin) const;
-
-  /// A bin cut around clusters of its pilot points and then in growing steps to its edges, so that
-  /// a support that ends somewhere inside is not missed. Appended to `cells`.
-  void add_cells_around_points(std::size_t bin, std::vector<Point2>& points,
-                               std::vector<Cell>& cells) const;
+  /// A bin as one cell with its pilot points, or as two where the break line runs through.
+  std::vector<Cell> cells(std::size_t bin, std::optional<double> break_line,
+                          std::vector<Point2>& points) const;
 
  private:
   std::size_t cut_dimension(int level) const {
@@ -50,5 +47,15 @@ class BinTree {
   std::vector<Box> boxes_;
   std::vector<std::size_t> first_;  // of a bin's points; one more than bins
 };
+
+/// A cell halved until no piece has its points in one half of it, or in two clusters: what they
+/// crowd around may be narrower than any rule on the whole cell sees. Appended to `cells`.
+void add_cells_of_even_points(const Cell& cell, std::vector<Point2>& points,
+                              std::vector<Cell>& cells);
+
+/// A cell cut around clusters of its pilot points and then in growing steps to its edges, so that a
+/// support that ends somewhere inside is not missed. Appended to `cells`.
+void add_cells_around_points(const Cell& cell, std::vector<Point2>& points,
+                             std::vector<Cell>& cells);
 
 }  // namespace plumbline::verify

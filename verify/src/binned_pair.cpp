@@ -44,20 +44,29 @@ int log2_of(std::size_t bins) {
   return depth;
 }
 
-/// Cells follow the pilot points where the edge of a support may run, and are whole bins elsewhere.
+/// Cells follow the pilot points where the edge of a support may run or the points are uneven, and
+/// are whole bins elsewhere.
+///
+/// @param promise_mass  whether the function integrates to the share of points in a cell
 CubatureResult integrate_over(const BinTree& tree, const Chart& chart,
                               const std::function<double(const Vec3&)>& function,
-                              std::vector<Point2>& pilot, double error) {
+                              std::vector<Point2>& pilot, bool promise_mass, double error) {
   const auto on_square = [&](const Point2& p) {
     return chart.element(p) * function(chart.from_square(p));
   };
   std::vector<Cell> cells;
   for (std::size_t bin = 0; bin < tree.bins(); ++bin) {
-    if (shows_zero(on_square, tree.box(bin))) {
-      tree.add_cells_around_points(bin, pilot, cells);
-    } else {
-      cells.push_back(tree.cell(bin));
+    for (const Cell& cell : tree.cells(bin, chart.break_line(), pilot)) {
+      const bool has_points = cell.first < cell.last;
+      if (has_points && shows_zero(on_square, cell.box)) {
+        add_cells_around_points(cell, pilot, cells);
+      } else {
+        add_cells_of_even_points(cell, pilot, cells);
+      }
     }
+  }
+  for (Cell& cell : cells) {
+    if (!promise_mass) cell.first = cell.last = 0;
   }
   return integrate(on_square, cells, pilot, tree.bins(), error, kMaxEvaluations);
 }
@@ -97,7 +106,7 @@ void BinnedPair::tabulate_discrete() {
 void BinnedPair::integrate_density(double mass_error, std::uint64_t seed) {
   std::vector<Point2> pilot = draw_pilot(pair_, kPilotsPerBin << depth_, seed);
   tree_.emplace(pilot, depth_, pair_.domain.dimension());
-  expected_ = integrate_over(*tree_, pair_.domain.chart(), pair_.pdf, pilot, mass_error);
+  expected_ = integrate_over(*tree_, pair_.domain.chart(), pair_.pdf, pilot, true, mass_error);
 }
 
 CubatureResult integrate_over_domain(const SamplingPair& pair,
@@ -106,7 +115,7 @@ CubatureResult integrate_over_domain(const SamplingPair& pair,
   const int depth = log2_of(static_cast<std::size_t>(finest_bins));
   std::vector<Point2> pilot = draw_pilot(pair, kPilotsPerBin << depth, seed);
   const BinTree tree(pilot, depth, pair.domain.dimension());
-  return integrate_over(tree, pair.domain.chart(), function, pilot, error);
+  return integrate_over(tree, pair.domain.chart(), function, pilot, false, error);
 }
 
 void BinnedPair::measure_rounding(std::uint64_t seed) {

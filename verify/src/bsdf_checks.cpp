@@ -18,7 +18,6 @@ namespace {
 
 constexpr int kReciprocityPairs = 2'000;
 constexpr int kAtomProbes = 1'000;
-constexpr int kEnergyBins = 256;
 
 Vec3 random_direction(Random& random) {
   const double z = 2 * random.uniform() - 1, phi = 2 * std::numbers::pi * random.uniform();
@@ -166,8 +165,8 @@ CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const 
     const double scale = eta_squared(wi, options.eta) / eta_squared(wo, options.eta);
     return pair.value(wi)[channel] * scale;
   };
-  const CubatureResult integral =
-      integrate_over_domain(pair, value, kEnergyBins, options.energy_tolerance / 4, seed);
+  const CubatureResult integral = integrate_over_domain(pair, value, options.contract.finest_bins,
+                                                        options.energy_tolerance / 4, seed);
   const double atoms = atoms_albedo(pair, wo, options.eta, channel, seed);
 
   CheckResult r = result_of("energy", name, options.contract);

@@ -130,6 +130,7 @@ class Integrator {
     e.depth = depth;
     if (e.value == 0) e.split = depth % 2;
     heed_points(e);
+    heed_slivers(e);
     // Next to an edge, or far from all pilot points, agreeing nodes prove little.
     const bool crosses = e.cut_off > 0;
     const bool has_points = e.cell.first < e.cell.last;
@@ -203,6 +204,32 @@ class Integrator {
     const double count = static_cast<double>(e.cell.last - e.cell.first);
     if (!(e.value * total < (count - 0.8) / 4)) return;
     e.error = std::max(e.error, count / total - e.value);
+  }
+
+  /// Raises the error of a cell where a density far above the mean that the rule finds shows
+  /// between its nodes and the border: at the middles of the sides, at the corners, or at a pilot
+  /// point.
+  void heed_slivers(Estimate& e) {
+    constexpr double kFarAbove = 32;
+    constexpr int kMaxDepth = 64;
+    if (e.depth >= kMaxDepth || points_.empty()) return;
+    const Box& box = e.cell.box;
+    const double area = (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
+    const Point2 middle{(box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2};
+    const auto at = [&](double x, double y) { return f_({x, y}); };
+    const double across = std::max(at(box.low[0], middle[1]), at(box.high[0], middle[1]));
+    const double along = std::max(at(middle[0], box.low[1]), at(middle[0], box.high[1]));
+    double elsewhere = std::max({at(box.low[0], box.low[1]), at(box.low[0], box.high[1]),
+                                 at(box.high[0], box.low[1]), at(box.high[0], box.high[1])});
+    result_.evaluations += 8;
+    if (e.cell.first < e.cell.last) elsewhere = std::max(elsewhere, f_(points_[e.cell.first]));
+    const double largest = std::max({across, along, elsewhere});
+    if (!(largest * area > kFarAbove * e.value)) return;
+    const double count = static_cast<double>(std::max(e.cell.last - e.cell.first, std::size_t{1}));
+    e.error =
+        std::max(e.error, std::min(largest * area, count / static_cast<double>(points_.size())));
+    e.split = across == along ? e.depth % 2 : (across > along ? 0 : 1);
+    if (elsewhere > 4 * std::max(across, along)) e.split = e.depth % 2;
   }
 
   const Integrand& f_;

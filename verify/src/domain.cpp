@@ -121,6 +121,9 @@ class DirectionChart final : public Chart {
     return {std::clamp((half - first_) / extent_, 0.0, 1.0), phi < 0 ? phi + 1 : phi};
   }
   double element(const Point2&) const override { return 4 * kPi * extent_; }
+  std::optional<double> break_line() const override {
+    return extent_ < 1 ? std::nullopt : std::optional(0.5);
+  }
 
   Vec3 near(const Vec3& w, double distance, double angle) const override {
     const Vec3 axis = std::abs(w[2]) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include "distributions.h"
 
@@ -13,7 +15,9 @@ namespace {
 /// lengths are integrated over the lines, halving where they are not smooth.
 class RejectedArea {
  public:
-  explicit RejectedArea(const SamplingPair& pair) : pair_(pair) {}
+  using Sampler = std::function<std::optional<PairSample>(const Uniforms&)>;
+
+  RejectedArea(const Sampler& sample, double epsilon) : sample_(sample), epsilon_(epsilon) {}
 
   RejectedShare measure() {
     constexpr int kStrips = 64;
@@ -50,7 +54,7 @@ class RejectedArea {
   /// Length of the rejected part of the line.
   double length(double second) {
     constexpr int kSteps = 128;
-    const double last_number = 1 - pair_.epsilon;
+    const double last_number = 1 - epsilon_;
     double sum = 0, from = 0;
     bool inside = rejects(0, second);
     for (int i = 1; i <= kSteps; ++i) {
@@ -67,7 +71,7 @@ class RejectedArea {
   }
 
   double bisect(double from, double to, bool at_from, double second) {
-    while (to - from > 4 * pair_.epsilon) {
+    while (to - from > 4 * epsilon_) {
       const double middle = (from + to) / 2;
       (rejects(middle, second) == at_from ? from : to) = middle;
     }
@@ -76,10 +80,11 @@ class RejectedArea {
 
   bool rejects(double first, double second) {
     ++samples_;
-    return !pair_.sample({first, std::min(second, 1 - pair_.epsilon), 0});
+    return !sample_({first, std::min(second, 1 - epsilon_), 0});
   }
 
-  const SamplingPair& pair_;
+  const Sampler& sample_;
+  double epsilon_;
   std::uint64_t samples_ = 0;
   double area_ = 0, error_ = 0;
 };
@@ -94,7 +99,16 @@ double MassBalance::expected_rejected(double tolerance) const {
 
 RejectedShare measure_rejected(const SamplingPair& pair) {
   if (pair.draw || pair.numbers != 2) return {};
-  return RejectedArea(pair).measure();
+  if (pair.lobes.empty()) return RejectedArea(pair.sample, pair.epsilon).measure();
+  // A lobe's own square shows what is narrow in the share of the whole square that it has.
+  RejectedShare sum{0, 0, true};
+  for (const PairLobe& lobe : pair.lobes) {
+    if (!(lobe.probability > 0)) continue;
+    const RejectedShare share = RejectedArea(lobe.sample, pair.epsilon).measure();
+    sum.value += lobe.probability * share.value;
+    sum.error += lobe.probability * share.error;
+  }
+  return sum;
 }
 
 MassBalance balance_mass(const BinnedPair& pair, const RejectedShare& measured, double level) {
@@ -107,14 +121,15 @@ MassBalance balance_mass(const BinnedPair& pair, const RejectedShare& measured, 
     balance.rejected = measured;
     return balance;
   }
-  // A rejection that no sample has shown may still have a share of −log(level)/n.
   const double share = static_cast<double>(pair.counts().rejected) / n;
   const double error =
       share == 0 ? 0 : normal_quantile(level / 2) * std::sqrt(share * (1 - share) / n) + 1 / n;
   balance.rejected = {share, error, false};
+  // What no sample has shown may still have a share of −log(level)/n.
+  const double possible = share == 0 ? -std::log(level) / n : error;
   // An area that the samples contradict has missed part of the set.
-  const bool consistent = std::abs(measured.value - share) <= error + measured.error + 10 / n;
-  if (measured.measured && consistent && measured.error < error) balance.rejected = measured;
+  const bool consistent = std::abs(measured.value - share) <= possible + measured.error + 10 / n;
+  if (measured.measured && consistent && measured.error < possible) balance.rejected = measured;
   return balance;
 }
 

@@ -24,7 +24,7 @@ struct MassBalance {
   double expected_rejected(double tolerance) const;
 };
 
-/// Area of the set of u that `sample` rejects. Not measured for pairs of other than two numbers.
+/// Area of the set of u that `sample` rejects, lobe by lobe where there are lobes. Not measured for pairs of other than two numbers.
 RejectedShare measure_rejected(const SamplingPair& pair);
 
 /// @param measured  by measure_rejected

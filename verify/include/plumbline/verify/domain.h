@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <plumbline/verify/vector_access.h>
@@ -28,6 +29,10 @@ class Chart {
   /// A point at about the given distance from x in the domain (or just outside), in direction
   /// `angle`. Tells a point that rounding put beside the support from one that is nowhere near it.
   virtual Vec3 near(const Vec3& x, double distance, double angle) const = 0;
+
+  /// First coordinate along which densities tend to break, where there is one: the horizon of the
+  /// sphere.
+  virtual std::optional<double> break_line() const { return std::nullopt; }
 
   /// How far x is from the domain, in the units of its coordinates; 0 inside.
   virtual double distance(const Vec3& x) const = 0;
