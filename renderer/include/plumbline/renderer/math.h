@@ -64,7 +64,8 @@ T log_1_plus(const T& x) {
   if constexpr (is_builtin_float<T>) {
     return std::log1p(x);
   } else {
-    using std::atanh;
+    using std::atanh, std::log;
+    if (x < T(-0.5)) return T(log(T(T(1) + x)));  // nothing cancels, and atanh would near −1
     return T(2) * atanh(T(x / (T(2) + x)));
   }
 }

@@ -82,8 +82,14 @@ struct GgxDielectric {
     const Vec3<T> o = upright(wo, wo), i = upright(wi, wi);
     const T common = ggx.density(half->normal) /
                      ((o.z + ggx.stretched_length(o)) * (i.z + ggx.stretched_length(i)));
-    const auto power = film.template split<T>(half->wide_cos_o, wo.z > T(0));
-    if (!half->refracts) return to_rgb(power.reflected) * common;
+    if (!half->refracts) {
+      return to_rgb(film.template split<T>(half->wide_cos_o, wo.z > T(0)).reflected) * common;
+    }
+    // Both sides give the same share; the thinner one has no critical angle to lose digits at.
+    const bool thin_outside = interface.eta > 1;
+    const bool from_thin = (wo.z > T(0)) == thin_outside;
+    const auto power =
+        film.template split<T>(from_thin ? half->wide_cos_o : half->wide_cos_i, thin_outside);
     const T eta = static_cast<T>(relative_index<T>(interface.eta, wo.z > T(0)));
     return to_rgb(power.transmitted) *
            T(T(4) * common * half->cos_o * half->cos_i * half->inverse_square / sqr(eta));
@@ -152,7 +158,7 @@ struct GgxDielectric {
     bool refracts;
     Vec3<T> normal;  // unnormalised, on the side of wo made upright
     T cos_o, cos_i;  // |wo·h|, |wi·h|
-    Wide<T> wide_cos_o;
+    Wide<T> wide_cos_o, wide_cos_i;
     T inverse_square;  // of η: η²/|wo + η wi|², refraction only
   };
 
@@ -180,6 +186,7 @@ struct GgxDielectric {
                          static_cast<T>(cos_o),
                          static_cast<T>(cos_i),
                          std::min(cos_o, W(1)),
+                         std::min(cos_i, W(1)),
                          static_cast<T>(W(sqr(eta) / square))};
   }
 
