@@ -166,7 +166,7 @@ CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const 
     return pair.value(wi)[channel] * scale;
   };
   const CubatureResult integral = integrate_over_domain(pair, value, options.contract.finest_bins,
-                                                        options.energy_tolerance / 4, seed);
+                                                        options.energy_tolerance / 20, seed);
   const double atoms = atoms_albedo(pair, wo, options.eta, channel, seed);
 
   CheckResult r = result_of("energy", name, options.contract);

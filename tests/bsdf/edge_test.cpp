@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <variant>
+
+#include <plumbline/verify/random.h>
+#include "examples.h"
+#include "hard_points.h"
+
+/// Where renderers show NaNs and dark halos: next to the horizon, at normal incidence, at the ends
+/// of the random numbers. In float, as rendered.
+namespace plumbline::tests {
+namespace {
+
+using namespace renderer;
+
+constexpr float kOneMinusUlp = 1 - 0x1p-24f;
+constexpr std::array kEnds{0.0f, 0x1p-24f, 0.5f, kOneMinusUlp};
+
+bool is_sane(const Rgbf& c) {
+  for (const float x : {c.r, c.g, c.b}) {
+    if (!(std::isfinite(x) && x >= 0)) return false;
+  }
+  return true;
+}
+
+template <class B>
+class Edge : public testing::Test {};
+
+TYPED_TEST_SUITE(Edge, BsdfTypes, );
+
+TYPED_TEST(Edge, NothingIsNonFiniteAndAtomsReportNoDensity) {
+  for (const Example& example : examples_of<TypeParam>()) {
+    for (const double cosine : {1.0, 1e-12, std::cos(89.99 * std::acos(-1.0) / 180)}) {
+      for (const double side : {1.0, -1.0}) {
+        const Vec3f wo = direction(side * cosine, 0.3);
+        for (const float x : kEnds) {
+          for (const float y : kEnds) {
+            const auto s = example.bsdf.sample(wo, Vec2f{x, y});
+            if (!s) continue;
+            const std::string place = example.name + " u " + std::to_string(x) + ' ' +
+                                      std::to_string(y) + " cosθo " + std::to_string(wo.z);
+            EXPECT_TRUE(is_sane(s->weight)) << place;
+            EXPECT_TRUE(std::isfinite(s->pdf_w)) << place;
+            EXPECT_NEAR(length(s->wi), 1, 1e-5f) << place;
+            EXPECT_TRUE(s->is_atom() ? s->pdf_w == 0 && s->mass <= 1 : s->pdf_w > 0) << place;
+            EXPECT_TRUE(is_sane(example.bsdf.eval(wo, s->wi))) << place;
+            EXPECT_TRUE(std::isfinite(example.bsdf.pdf(wo, s->wi))) << place;
+          }
+        }
+      }
+    }
+  }
+}
+
+TYPED_TEST(Edge, WhatIsAllAtomsHasNoDensityAnywhere) {
+  verify::Random random(1);
+  for (const Example& example : examples_of<TypeParam>()) {
+    if (example.bsdf.parts().density) continue;
+    for (const Vec3f& wo : hard_outgoing(random)) {
+      for (const Vec3f& wi : hard_incoming(example.bsdf, wo, 16, random)) {
+        EXPECT_EQ(example.bsdf.pdf(wo, wi), 0) << example.name;
+        EXPECT_TRUE(is_black(example.bsdf.eval(wo, wi))) << example.name;
+      }
+    }
+  }
+}
+
+TEST(DarkHalo, MetalWithoutLossStaysBrightToTheHorizon) {
+  // Single scattering keeps at least half of the power at any angle for α ≤ 0.1.
+  const GgxConductor metal{{0.1f, 0.1f}, {}};
+  verify::Random random(2);
+  for (const double degrees : {85.0, 89.0, 89.9, 89.99}) {
+    const Vec3f wo = direction(std::cos(degrees * std::acos(-1.0) / 180), 0.3);
+    double sum = 0;
+    constexpr int kSamples = 20'000;
+    for (int i = 0; i < kSamples; ++i) {
+      const float x = random.uniform_float();
+      const auto s = metal.sample(wo, Vec2f{x, random.uniform_float()});
+      if (s) sum += static_cast<double>(s->weight.g) / kSamples;
+    }
+    EXPECT_GT(sum, 0.5) << degrees;
+  }
+}
+
+TEST(SmoothDielectric, OfIndexOneIsInvisible) {
+  const SmoothDielectric air{{1}};
+  for (const double cosine : {1.0, 0.5, 0.01, -0.01, -1.0}) {
+    const Vec3f wo = direction(cosine, 0.3);
+    for (const float u : kEnds) {
+      const auto s = air.sample(wo, Vec2f{u, 0.5f});
+      ASSERT_TRUE(s);
+      EXPECT_EQ(s->weight, (Rgbf{1, 1, 1}));
+      EXPECT_EQ(s->mass, 1);
+      EXPECT_LT(length(s->wi + wo), 1e-6f);
+    }
+  }
+}
+
+TEST(SmoothDielectric, TotalReflectionLosesNothing) {
+  const SmoothDielectric glass{{1.5f}};
+  const Vec3f wo = direction(-0.5, 0.3);  // beyond the critical angle, |cosθ| = 0.745
+  for (const float u : kEnds) {
+    const auto s = glass.sample(wo, Vec2f{u, 0.5f});
+    ASSERT_TRUE(s);
+    EXPECT_EQ(s->weight, (Rgbf{1, 1, 1}));
+    EXPECT_EQ(s->mass, 1);
+    EXPECT_LT(s->wi.z, 0);
+  }
+}
+
+TEST(SmoothDielectric, RadianceScalesByTheSquareOfTheIndices) {
+  // Into glass radiance grows by η², out of it it shrinks by as much: so weights hold 1/η² and η²
+  // for light that is followed backwards.
+  const SmoothDielectric glass{{1.5f}};
+  const auto in = glass.sample_lobe(Vec3f{0, 0, 1}, 1, Vec2f{});
+  const auto out = glass.sample_lobe(Vec3f{0, 0, -1}, 1, Vec2f{});
+  ASSERT_TRUE(in && out);
+  EXPECT_FLOAT_EQ(in->weight.g, 0.96f / 2.25f);
+  EXPECT_FLOAT_EQ(out->weight.g, 0.96f * 2.25f);
+}
+
+}  // namespace
+}  // namespace plumbline::tests

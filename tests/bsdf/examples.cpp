@@ -1,0 +1,132 @@
+#include "examples.h"
+
+#include <cstddef>
+
+namespace plumbline::tests {
+
+using namespace renderer;
+
+ConductorFresnel gold() { return {{0.18f, 0.42f, 1.37f}, {3.42f, 2.35f, 1.77f}}; }
+ConductorFresnel copper() { return {{0.27f, 0.68f, 1.32f}, {3.61f, 2.63f, 2.29f}}; }
+
+namespace {
+
+const Rgbf kWhite{1, 1, 1};
+const ConductorFresnel kNoLoss;
+
+template <std::size_t... i>
+std::vector<Example> examples_of_all(std::index_sequence<i...>) {
+  std::vector<Example> all;
+  const auto append = [&all](std::vector<Example> examples) {
+    all.insert(all.end(), examples.begin(), examples.end());
+  };
+  (append(examples_of<std::variant_alternative_t<i, Bsdf>>()), ...);
+  return all;
+}
+
+}  // namespace
+
+double eta_of(const BsdfSet& set, std::uint32_t index) {
+  const auto of = [&set](const auto& self, const auto& bsdf) -> double {
+    if constexpr (requires { bsdf.interface.eta; }) {
+      return double{bsdf.interface.eta};
+    } else if constexpr (requires {
+                           bsdf.base;
+                           bsdf.film;
+                         }) {
+      return std::visit([&](const auto& base) { return self(self, base); }, bsdf.base);
+    } else if constexpr (requires { bsdf.children(); }) {
+      // Both children of a mixture have the same medium behind them.
+      return eta_of(set, bsdf.children()[0]);
+    }
+    return 1;
+  };
+  return std::visit([&](const auto& bsdf) { return of(of, bsdf); }, set[index]);
+}
+
+std::vector<Example> all_examples() {
+  return examples_of_all(std::make_index_sequence<std::variant_size_v<Bsdf>>());
+}
+
+Sets ExamplesOf<Lambertian>::sets() { return {{"grey", {Lambertian{{0.5f, 0.2f, 0.8f}}}}}; }
+
+Sets ExamplesOf<ModifiedPhong>::sets() {
+  return {{"n 1", {ModifiedPhong{kWhite, 1}}},
+          {"n 20", {ModifiedPhong{{0.9f, 0.5f, 0.1f}, 20}}},
+          {"n 1000", {ModifiedPhong{kWhite, 1000}}},
+          {"n 1e6", {ModifiedPhong{kWhite, 1e6f}}}};
+}
+
+Sets ExamplesOf<GgxConductor>::sets() {
+  return {{"alpha 1e-4", {GgxConductor{{1e-4f, 1e-4f}, kNoLoss}}},
+          {"alpha 1e-3 gold", {GgxConductor{{1e-3f, 1e-3f}, gold()}}},
+          {"alpha 0.1", {GgxConductor{{0.1f, 0.1f}, kNoLoss}}},
+          {"alpha 0.05, 0.4 copper", {GgxConductor{{0.05f, 0.4f}, copper()}}},
+          {"alpha 1e-4, 1", {GgxConductor{{1e-4f, 1}, kNoLoss}}},
+          {"alpha 1", {GgxConductor{{1, 1}, kNoLoss}}}};
+}
+
+Sets ExamplesOf<GgxDielectric>::sets() {
+  return {{"eta 1.5 alpha 1e-4", {GgxDielectric{{1e-4f, 1e-4f}, {1.5f}}}},
+          {"eta 1.5 alpha 0.1", {GgxDielectric{{0.1f, 0.1f}, {1.5f}}}},
+          {"eta 1/1.5 alpha 0.02", {GgxDielectric{{0.02f, 0.02f}, {1 / 1.5f}}}},
+          {"eta 1.01 alpha 0.3", {GgxDielectric{{0.3f, 0.3f}, {1.01f}}}},
+          {"eta 1.5 alpha 0.2, 0.6", {GgxDielectric{{0.2f, 0.6f}, {1.5f}}}},
+          {"eta 2.5 alpha 1", {GgxDielectric{{1, 1}, {2.5f}}}},
+          {"eta 1/2.5 alpha 0.5", {GgxDielectric{{0.5f, 0.5f}, {0.4f}}}}};
+}
+
+Sets ExamplesOf<SmoothConductor>::sets() {
+  return {{"mirror", {SmoothConductor{kNoLoss}}}, {"gold", {SmoothConductor{gold()}}}};
+}
+
+Sets ExamplesOf<SmoothDielectric>::sets() {
+  return {{"eta 1.5", {SmoothDielectric{{1.5f}}}},
+          {"eta 1", {SmoothDielectric{{1}}}},
+          {"eta 1/2.5", {SmoothDielectric{{0.4f}}}}};
+}
+
+Sets ExamplesOf<ClearCoat>::sets() {
+  return {{"eta 1.5 alpha 0.1", {ClearCoat(1.5f, 0.1f, {0.8f, 0.3f, 0.1f})}},
+          {"eta 1.5 alpha 1e-4", {ClearCoat(1.5f, 1e-4f, {0.5f, 0.5f, 0.5f})}},
+          {"eta 2.5 alpha 0.5 white", {ClearCoat(2.5f, 0.5f, kWhite)}},
+          {"eta 1.3 alpha 1 black", {ClearCoat(1.3f, 1, {0, 0, 0})}}};
+}
+
+Sets ExamplesOf<ThinFilm>::sets() {
+  return {{"300 nm on rough gold", {ThinFilm{GgxConductor{{0.1f, 0.1f}, gold()}, {300, 1.5f}}}},
+          {"2000 nm on rough glass", {ThinFilm{GgxDielectric{{0.2f, 0.2f}, {1.5f}}, {2000, 1.8f}}}},
+          {"100 nm on rough glass, coated lens",
+           {ThinFilm{GgxDielectric{{0.05f, 0.05f}, {1.5f}}, {100, 1.38f}}}},
+          {"0 nm on rough copper", {ThinFilm{GgxConductor{{0.3f, 0.3f}, copper()}, {0, 1.33f}}}},
+          {"550 nm on gold", {ThinFilm{SmoothConductor{gold()}, {550, 1.33f}}}},
+          {"400 nm on glass", {ThinFilm{SmoothDielectric{{1.5f}}, {400, 1.33f}}}}};
+}
+
+Sets ExamplesOf<TwoSided>::sets() {
+  const Bsdf grey = Lambertian{{0.5f, 0.5f, 0.5f}};
+  const Bsdf metal = GgxConductor{{0.1f, 0.3f}, copper()};
+  const Bsdf mirror = SmoothConductor{kNoLoss};
+  const Bsdf phong = ModifiedPhong{kWhite, 50};
+  return {
+      {"rough copper", {metal, TwoSided{0, 0}}},
+      {"diffuse, phong behind", {grey, phong, TwoSided{0, 1}}},
+      {"coat, mirror behind", {ClearCoat(1.5f, 0.2f, {0.5f, 0.5f, 0.5f}), mirror, TwoSided{0, 1}}}};
+}
+
+Sets ExamplesOf<Mixture>::sets() {
+  const Bsdf grey = Lambertian{{0.5f, 0.5f, 0.5f}};
+  const Bsdf metal = GgxConductor{{0.05f, 0.05f}, gold()};
+  const Bsdf mirror = SmoothConductor{kNoLoss};
+  const Bsdf glass = GgxDielectric{{0.2f, 0.2f}, {1.5f}};
+  const Bsdf clear = SmoothDielectric{{1.5f}};
+  return {{"diffuse and rough gold", {grey, metal, Mixture{0, 1, 0.3f}}},
+          {"diffuse and mirror", {grey, mirror, Mixture{0, 1, 0.5f}}},
+          {"mixture in mixture", {grey, metal, Mixture{0, 1, 0.4f}, mirror, Mixture{2, 3, 0.2f}}},
+          {"rough and clear glass", {glass, clear, Mixture{0, 1, 0.25f}}},
+          {"two-sided mixture",
+           {grey, metal, Mixture{0, 1, 0.9f}, TwoSided{2, 0}, Mixture{3, 3, 0.5f}}},
+          {"nearly all of the second", {grey, metal, Mixture{0, 1, 0.999f}}}};
+}
+
+}  // namespace plumbline::tests
