@@ -1,0 +1,101 @@
+#include <benchmark/benchmark.h>
+
+#include <string>
+#include <vector>
+
+#include <plumbline/renderer/bsdf/bsdf.h>
+#include <plumbline/renderer/sampling/pcg32.h>
+#include "plain_ggx.h"
+
+/// Nanoseconds per sample, eval + pdf, and all three, of every BSDF as rendered (in float, through
+/// the variant), interleaved with a plain GGX in the same run.
+namespace plumbline::bench {
+namespace {
+
+using namespace renderer;
+
+const ConductorFresnel kGold{{0.143119f, 0.374957f, 1.44248f}, {3.98316f, 2.38572f, 1.60322f}};
+
+struct Case {
+  const char* name;
+  std::uint32_t index;
+};
+
+const BsdfSet& bsdfs() {
+  static const BsdfSet set({Lambertian{{0.5f, 0.5f, 0.5f}}, ModifiedPhong{{1, 1, 1}, 50},
+                            GgxConductor{{0.3f, 0.3f}, {}}, GgxConductor{{0.3f, 0.3f}, kGold},
+                            GgxDielectric{{0.3f, 0.3f}, {1.5f}}, SmoothConductor{kGold},
+                            SmoothDielectric{{1.5f}}, ClearCoat(1.5f, 0.1f, {0.5f, 0.5f, 0.5f}),
+                            ThinFilm{GgxConductor{{0.3f, 0.3f}, kGold}, {300, 1.5f}},
+                            TwoSided{2, 2}, Mixture{0, 2, 0.5f}});
+  return set;
+}
+
+constexpr Case kCases[] = {
+    {"lambertian", 0},         {"modified_phong", 1}, {"ggx_conductor", 2},
+    {"ggx_conductor_gold", 3}, {"ggx_dielectric", 4}, {"smooth_conductor", 5},
+    {"smooth_dielectric", 6},  {"clear_coat", 7},     {"thin_film_on_rough_gold", 8},
+    {"two_sided", 9},          {"mixture", 10}};
+
+/// Directions and numbers that no branch predictor learns by heart.
+struct Inputs {
+  static constexpr std::size_t kCount = 4096;
+  std::vector<Vec3f> wo, wi;
+  std::vector<Vec2f> u;
+
+  Inputs() {
+    Pcg32 random(1, 0, 0);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      wo.push_back(square_to_uniform_hemisphere(random.next_2d()));
+      wi.push_back(square_to_uniform_hemisphere(random.next_2d()));
+      u.push_back(random.next_2d());
+    }
+  }
+};
+
+const Inputs& inputs() {
+  static const Inputs all;
+  return all;
+}
+
+template <class Function>
+void over_inputs(benchmark::State& state, const Function& function) {
+  const Inputs& in = inputs();
+  std::size_t i = 0;
+  for (auto _ : state) {
+    function(in.wo[i], in.wi[i], in.u[i]);
+    i = (i + 1) % Inputs::kCount;
+  }
+}
+
+template <class B>
+void add(const std::string& name, const B& bsdf) {
+  const auto add_one = [&name](const char* what, const auto& function) {
+    benchmark::RegisterBenchmark(("bsdf_cost/" + name + "/" + what).c_str(),
+                                 [function](benchmark::State& s) { over_inputs(s, function); });
+  };
+  const auto sample = [bsdf](const Vec3f& wo, const Vec3f&, const Vec2f& u) {
+    benchmark::DoNotOptimize(bsdf.sample(wo, u));
+  };
+  const auto eval_pdf = [bsdf](const Vec3f& wo, const Vec3f& wi, const Vec2f&) {
+    benchmark::DoNotOptimize(bsdf.eval(wo, wi));
+    benchmark::DoNotOptimize(bsdf.pdf(wo, wi));
+  };
+  add_one("sample", sample);
+  add_one("eval_pdf", eval_pdf);
+  add_one("sample_eval_pdf", [sample, eval_pdf](const Vec3f& wo, const Vec3f& wi, const Vec2f& u) {
+    sample(wo, wi, u);
+    eval_pdf(wo, wi, u);
+  });
+}
+
+bool add_all() {
+  add("plain_ggx", PlainGgx{0.3f, {1, 1, 1}});
+  for (const Case& c : kCases) add(c.name, BsdfRef(bsdfs(), c.index));
+  return true;
+}
+
+[[maybe_unused]] const bool kAdded = add_all();
+
+}  // namespace
+}  // namespace plumbline::bench
