@@ -22,7 +22,8 @@
 
 namespace plumbline::renderer {
 
-/// Every BSDF of the renderer.
+/// Every BSDF of the renderer. The tests walk this list: an alternative without examples does not
+/// compile there (tests/bsdf/examples.h).
 using Bsdf = std::variant<Lambertian, ModifiedPhong, GgxConductor, GgxDielectric, SmoothConductor,
                           SmoothDielectric, ClearCoat, ThinFilm, TwoSided, Mixture>;
 
