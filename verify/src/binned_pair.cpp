@@ -8,8 +8,8 @@ namespace plumbline::verify {
 
 namespace {
 
-// With 4096 bins, a corner of the support that holds 5e-5 of the mass is missed by all pilot samples
-// twice in a million times; a quarter of them missed one of 3.5e-5 in one run of ten.
+// With 4096 bins, a corner of the support that holds 5e-5 of the mass is missed by all pilot
+// samples twice in a million times; a quarter of them missed one of 3.5e-5 in one run of ten.
 constexpr std::size_t kPilotsPerBin = 64;
 constexpr std::uint64_t kMaxEvaluations = 6'000'000;
 // A float direction that rounding put outside the support is within a few 2^-24 of it.
