@@ -122,6 +122,9 @@ std::vector<double> as_factors(const std::vector<int>& counts) {
   return std::vector<double>(counts.begin(), counts.end());
 }
 
+/// Relative difference that rounding may leave between equal densities, with room to spare.
+constexpr double kTie = 1e-12;
+
 }  // namespace
 
 double weight(const WeightRule& rule, const std::vector<double>& q, std::size_t i) {
@@ -140,7 +143,8 @@ double weight(const WeightRule& rule, const std::vector<double>& q, std::size_t 
     case WeightRule::Kind::cutoff:
       return share([&](double v) { return v < rule.parameter * largest ? 0.0 : v; });
     case WeightRule::Kind::maximum:
-      return share([&](double v) { return v == largest ? 1.0 : 0.0; });
+      // Densities that are equal on paper may differ by their rounding (1/width of equal pieces).
+      return share([&](double v) { return v >= largest * (1 - kTie) ? 1.0 : 0.0; });
   }
   return 0;
 }
