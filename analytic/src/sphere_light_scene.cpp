@@ -7,6 +7,7 @@
 
 #include <plumbline/analytic/sphere_light.h>
 
+#include "floor_oracle.h"
 #include "piecewise.h"
 #include "scenes.h"
 
@@ -91,25 +92,16 @@ class SphereLightOracle final : public PixelOracle {
   double reflected_;  // albedo/π · Le
 };
 
-void require(bool condition, const char* what) {
-  if (!condition) throw std::invalid_argument(what);
-}
-
 std::unique_ptr<PixelOracle> make_sphere_light(const OracleInput& input) {
   const double radius = parameter(input, "radius");
   const double height = parameter(input, "height");
-  const double radiance = parameter(input, "radiance");
-  const double albedo = parameter(input, "albedo");
   constexpr double kMax = std::numeric_limits<double>::max();
   require(radius > 0 && radius <= kMax, "radius must be positive and finite");
   require(std::abs(height) <= kMax, "height must be finite");
-  require(radiance >= 0 && radiance <= kMax, "radiance must be finite and not negative");
-  require(albedo >= 0 && albedo <= 1, "albedo must be in [0, 1]");
   require(out_of_view(input.camera, {0, 0, height}, radius),
           "the light would be in view, or hold the camera: the closed form is of the floor alone");
-  const bool lit = input.max_depth == -1 || input.max_depth >= 2;
-  auto oracle = std::make_unique<SphereLightOracle>(input.camera, radius, height,
-                                                    lit ? albedo / std::numbers::pi * radiance : 0);
+  auto oracle =
+      std::make_unique<SphereLightOracle>(input.camera, radius, height, reflected_radiance(input));
   const FilmSize film = input.camera.film;
   const FloorBox seen =
       oracle->on_floor({0, 0, static_cast<double>(film.width), static_cast<double>(film.height)});
@@ -135,6 +127,14 @@ KnownScene sphere_light() {
                       {"radiance", 4, "Le of the light [W/(m² sr)], not negative"},
                       {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
   scene.expectations = expect_pass_from_all();
+  constexpr std::string_view kTooSmall =
+      "directions that know nothing of the light find it once in 1e13 tries";
+  scene.variants = {{"cut_by_the_horizon", {{"height", 0.2}}, {}},
+                    {"far",
+                     {{"radius", 1e-6}, {"radiance", 1e12}},
+                     {{Strategy::bsdf, Expected::inconclusive, kTooSmall},
+                      {Strategy::uniform, Expected::inconclusive, kTooSmall},
+                      {Strategy::average, Expected::inconclusive, kTooSmall}}}};
   scene.make = make_sphere_light;
   return scene;
 }

@@ -23,9 +23,10 @@ inline constexpr Strategy kStrategies[] = {Strategy::bsdf, Strategy::light,     
 /// "bsdf", "light", "uniform", "mis", "one-sample" or "average".
 std::string_view to_string(Strategy strategy);
 
-/// What an unbiased renderer can be expected to prove about a scene with a strategy: that it
-/// agrees, or nothing, because the estimator's variance is infinite or hopeless.
-enum class Expected { pass, inconclusive };
+/// What a renderer without bugs can be expected to prove about a scene with a strategy: that it
+/// agrees; nothing, because the estimator's variance is infinite or hopeless; or that it does not
+/// agree, because the strategy (a negative control) is wrong there.
+enum class Expected { pass, inconclusive, fail };
 
 struct Expectation {
   Strategy strategy = Strategy::mis;
@@ -41,6 +42,13 @@ struct Parameter {
 };
 
 using ParameterValues = std::map<std::string, double, std::less<>>;
+
+/// Other parameters under which the scene is worth a check of its own.
+struct Variant {
+  std::string_view name;
+  ParameterValues parameters;
+  std::vector<Expectation> exceptions;  ///< where they differ from the scene's
+};
 
 /// Everything that decides a scene's image. Depth counts as in Mitsuba 3: at `max_depth` 1 only
 /// emission that the camera sees directly, at 2 direct light too; −1 is unlimited.
@@ -58,9 +66,11 @@ struct KnownScene {
   int max_depth = -1;  ///< as in the scene file
   std::vector<Parameter> parameters;
   std::vector<Expectation> expectations;  ///< one for each strategy, at the default parameters
+  std::vector<Variant> variants;
   std::unique_ptr<PixelOracle> (*make)(const OracleInput&) = nullptr;
 
-  const Expectation& expectation(Strategy strategy) const;
+  /// @param variant  one of `variants`, or nullptr for the default parameters
+  const Expectation& expectation(Strategy strategy, const Variant* variant = nullptr) const;
 };
 
 /// All known scenes, sorted by name.
