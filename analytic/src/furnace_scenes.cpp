@@ -117,8 +117,9 @@ KnownScene furnace_cube() {
   constexpr std::string_view kReason =
       "sampling the adjacent faces by area has infinite variance near the edges: E[X²] grows like "
       "1/h² with the distance h to an edge";
-  scene.expectations = expect_pass_but_for({{Strategy::light, Expected::inconclusive, kReason},
-                                            {Strategy::average, Expected::inconclusive, kReason}});
+  scene.expectations =
+      expect_pass_but_for({{Strategy::light, Expected::infinite_variance, kReason},
+                           {Strategy::average, Expected::infinite_variance, kReason}});
   return scene;
 }
 
@@ -151,8 +152,9 @@ KnownScene integrating_sphere() {
   constexpr std::string_view kReason =
       "sampling the disk by area has infinite variance near its rim, where it meets the wall: "
       "E[X²] grows like 1/h² with the distance h to it";
-  scene.expectations = expect_pass_but_for({{Strategy::light, Expected::inconclusive, kReason},
-                                            {Strategy::average, Expected::inconclusive, kReason}});
+  scene.expectations =
+      expect_pass_but_for({{Strategy::light, Expected::infinite_variance, kReason},
+                           {Strategy::average, Expected::infinite_variance, kReason}});
   scene.make = make_integrating_sphere;
   return scene;
 }

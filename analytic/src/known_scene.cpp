@@ -69,7 +69,7 @@ const std::vector<KnownScene>& known_scenes() {
   static const std::vector<KnownScene> scenes = [] {
     std::vector<KnownScene> all;
     for (const auto& family :
-         {furnace_scenes(), sphere_scenes(), polygon_scenes(), shadow_scenes()}) {
+         {furnace_scenes(), sphere_scenes(), polygon_scenes(), shadow_scenes(), bsdf_scenes()}) {
       all.insert(all.end(), family.begin(), family.end());
     }
     std::sort(all.begin(), all.end(),

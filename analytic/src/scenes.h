@@ -11,6 +11,7 @@ std::vector<KnownScene> furnace_scenes();
 std::vector<KnownScene> sphere_scenes();
 std::vector<KnownScene> polygon_scenes();
 std::vector<KnownScene> shadow_scenes();
+std::vector<KnownScene> bsdf_scenes();
 
 /// Value of a parameter that the scene is known to have.
 double parameter(const OracleInput& input, std::string_view name);

@@ -69,7 +69,7 @@ double eclipsed_irradiance(const SphereCone& light, const SphereCone& blocker) {
           covered_ring,
           make_cuts(0, light.half_angle,
                     {std::abs(apart - blocker.half_angle), apart + blocker.half_angle}),
-          1e-10 * full)
+          1e-8 * full)
           .value;
   return std::max(0.0, full - covered);
 }

@@ -9,8 +9,8 @@
 namespace plumbline::analytic {
 namespace {
 
-// edge_shadow.xml: a disk of radius 0.5 at height 2 over a black half plane x ≤ 0 at height 1.
-constexpr double kDiskRadius = 0.5, kDiskHeight = 2, kEdgeHeight = 1;
+// edge_shadow.xml: a disk of radius 1 at height 2.4 over a black half plane x ≤ 0 at height 0.8.
+constexpr double kDiskRadius = 1, kDiskHeight = 2.4, kEdgeHeight = 0.8;
 
 std::unique_ptr<PixelOracle> make_edge_shadow(const OracleInput& input) {
   const double reflected = reflected_radiance(input);
@@ -23,7 +23,7 @@ std::unique_ptr<PixelOracle> make_edge_shadow(const OracleInput& input) {
                         return reflected *
                                disk_part_irradiance(kDiskRadius, kDiskHeight, p.x, p.y, from_x);
                       },
-                      {1e-11, 1e-7, 6});
+                      {1e-11, 1e-6, 4});
 }
 
 KnownScene edge_shadow() {
@@ -42,8 +42,8 @@ KnownScene edge_shadow() {
   return scene;
 }
 
-// sphere_shadow.xml: a light of radius 0.3 at height 3, a black sphere of radius 0.6 at height 1.5.
-constexpr double kLightRadius = 0.3, kLightHeight = 3, kBlockerRadius = 0.6, kBlockerHeight = 1.5;
+// sphere_shadow.xml: a light of radius 1 at height 3, a black sphere of radius 0.75 at height 1.5.
+constexpr double kLightRadius = 1, kLightHeight = 3, kBlockerRadius = 0.75, kBlockerHeight = 1.5;
 
 SphereCone cone_towards(const Vec3& center, double radius, const Vec3& from) {
   const Vec3 offset = center - from;
@@ -61,7 +61,7 @@ std::unique_ptr<PixelOracle> make_sphere_shadow(const OracleInput& input) {
                                                cone_towards({0, 0, kLightHeight}, kLightRadius, p),
                                                cone_towards(blocker, kBlockerRadius, p));
                       },
-                      {1e-8, 1e-6, 6});
+                      {1e-7, 1e-5, 4});
 }
 
 KnownScene sphere_shadow() {
@@ -73,8 +73,8 @@ KnownScene sphere_shadow() {
   scene.view = {{0, 0, 0.5}, {0, 0, 0}, {0, 1, 0}, 60};
   scene.film = {64, 48};
   scene.max_depth = 2;
-  scene.parameters = {{"blocker_x", 0.6, "how far the blocker stands aside [m]"},
-                      {"radiance", 40, "Le of the light [W/(m² sr)], not negative"},
+  scene.parameters = {{"blocker_x", 0.9, "how far the blocker stands aside [m]"},
+                      {"radiance", 10, "Le of the light [W/(m² sr)], not negative"},
                       {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
   scene.expectations = expect_pass_from_all();
   scene.variants = {{"umbra", {{"blocker_x", 0.0}}, {}}, {"clear", {{"blocker_x", 3.0}}, {}}};

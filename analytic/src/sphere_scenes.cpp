@@ -1,12 +1,13 @@
 #include <cmath>
 #include <numbers>
 
+#include <plumbline/analytic/shadow.h>
 #include <plumbline/analytic/sphere_light.h>
 
 #include "floor_oracle.h"
 #include "scenes.h"
 
-/// Scenes with spherical lights; sphere_light itself has a source of its own.
+/// Scenes with spherical lights, and with many; sphere_light itself has a source of its own.
 namespace plumbline::analytic {
 
 KnownScene sphere_light();
@@ -63,51 +64,36 @@ struct GridLight {
 };
 
 constexpr int kLights = 1000;
-constexpr double kSpacing = 0.08, kLightHeight = 1;
-// Smaller than what would let one light hide another from a point of the floor in view: at the
-// lowest elevation, sin = 1/√(1 + 2.06² + 1.34²), neighbours are kSpacing · 0.38 > 2 R apart.
-constexpr double kLightRadius = 0.012;
+constexpr double kSpacing = 0.08, kLightRadius = 0.036, kLightHeight = 1;
 
 GridLight grid_light(int i) {
-  return {(i % 40 - 19.5) * kSpacing, (i / 40 - 12.0) * kSpacing, 10.0 * (1 + i % 5)};
+  return {(i % 40 - 19.5) * kSpacing, (i / 40 - 12.0) * kSpacing, 1.0 + i % 5};
 }
-
-class ManyLightsOracle final : public PixelOracle {
- public:
-  ManyLightsOracle(const Camera& camera, double reflected)
-      : PixelOracle(camera.film), camera_(camera), reflected_(reflected) {}
-
-  Average box_mean(const FilmBox& box) const override {
-    const double distance = camera_.origin.z;
-    const Vec3 a = camera_.origin + camera_.direction(box.x0, box.y0) * distance;
-    const Vec3 b = camera_.origin + camera_.direction(box.x1, box.y1) * distance;
-    double sum = 0;
-    for (int i = 0; i < kLights; ++i) {
-      const GridLight light = grid_light(i);
-      sum += light.radiance * sphere_irradiance_mean_above(
-                                  kLightRadius, kLightHeight, std::fmin(a.x, b.x) - light.x,
-                                  std::fmax(a.x, b.x) - light.x, std::fmin(a.y, b.y) - light.y,
-                                  std::fmax(a.y, b.y) - light.y);
-    }
-    return {reflected_ * sum, 1e-12 * reflected_ * sum};
-  }
-
- private:
-  Camera camera_;
-  double reflected_;
-};
 
 std::unique_ptr<PixelOracle> make_lights_1000(const OracleInput& input) {
   const double albedo = parameter(input, "albedo");
   require(albedo >= 0 && albedo <= 1, "albedo must be in [0, 1]");
   const bool lit = input.max_depth == -1 || input.max_depth >= 2;
-  return std::make_unique<ManyLightsOracle>(input.camera, lit ? albedo / std::numbers::pi : 0);
+  const double scale = lit ? albedo / std::numbers::pi : 0;
+  return floor_oracle(input.camera, 5,
+                      [scale](const Vec3& p, const Vec3&) {
+                        double sum = 0;
+                        for (int i = 0; i < kLights; ++i) {
+                          const GridLight light = grid_light(i);
+                          const double dx = p.x - light.x, dy = p.y - light.y;
+                          const double lateral = std::sqrt(dx * dx + dy * dy);
+                          sum +=
+                              light.radiance * disk_irradiance(kLightRadius, kLightHeight, lateral);
+                        }
+                        return scale * sum;
+                      },
+                      {1e-12, 1e-7, 4});
 }
 
 KnownScene lights_1000() {
   KnownScene scene;
   scene.name = "lights_1000";
-  scene.answer = "L = albedo / pi * sum of E_i under 1,000 spheres of unequal power over a floor";
+  scene.answer = "L = albedo / pi * sum of E_i under 1,000 disks of unequal power over a floor";
   scene.view = {{0, 0, 0.5}, {0, 0, 0}, {0, 1, 0}, 90};
   scene.film = {64, 48};
   scene.max_depth = 2;

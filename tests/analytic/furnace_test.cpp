@@ -1,10 +1,13 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
+#include <plumbline/analytic/bsdf_albedo.h>
+#include <plumbline/analytic/fresnel.h>
 #include <plumbline/analytic/furnace.h>
 #include <plumbline/analytic/known_scene.h>
 
@@ -94,6 +97,40 @@ TEST(OpenFurnace, DepthOneShowsTheEnvironmentAlone) {
   const auto oracle = make_oracle(known_scene("furnace_open"), {}, std::nullopt, 1);
   EXPECT_DOUBLE_EQ(oracle->pixel_mean(0, 0).value, 1);
   EXPECT_NEAR(oracle->pixel_mean(50, 55).value, 0, 1e-12);
+}
+
+TEST(PlaneFurnace, ShowsTheAlbedoAtTheAngleOfEachPixel) {
+  const KnownScene& scene = known_scene("furnace_metal");
+  const FilmSize fine{64000, 48000};  // pixels so small that the angle does not change in one
+  const Camera camera = make_camera(scene.view, fine);
+  const auto oracle = make_oracle(scene, {}, fine);
+  for (const auto& [x, y] : {std::pair{0, 0}, {32000, 24000}, {60000, 47000}}) {
+    const double cosine = -normalize(camera.direction(x + 0.5, y + 0.5)).z;
+    const double sine = std::sqrt(1 - cosine * cosine);
+    const double albedo = ggx_reflection_albedo({0.3, 0.3}, {sine, 0, cosine}, [](double c) {
+      return interface_reflectance(c, 1, {0.2, 3.9});
+    });
+    const Average seen = oracle->pixel_mean(x, y);
+    EXPECT_NEAR(seen.value, albedo, 1e-5 * albedo);
+    EXPECT_LE(seen.error, 1e-5 * albedo);
+  }
+}
+
+TEST(PlaneFurnace, MirrorAndBlendAreElementary) {
+  EXPECT_NEAR(make_oracle(known_scene("furnace_blend"))->image_mean().value, 0.7, 1e-12);
+  const double mirror = make_oracle(known_scene("furnace_mirror"))->image_mean().value;
+  EXPECT_GT(mirror, interface_reflectance(1, 1, {0.2, 3.9}) * 0.99);
+  EXPECT_LT(mirror, 1);
+  EXPECT_EQ(make_oracle(known_scene("furnace_phong"), {}, std::nullopt, 1)->image_mean().value, 0);
+}
+
+TEST(GlassInside, IsEtaSquaredAndOnlyWhereNothingIsTrapped) {
+  const KnownScene& scene = known_scene("glass_inside");
+  EXPECT_DOUBLE_EQ(make_oracle(scene)->image_mean().value, 2.25);
+  // |eye| = 0.374: from eta = 2.68 on some directions from it are trapped.
+  EXPECT_NO_THROW(make_oracle(scene, {{"eta", 2.6}}));
+  EXPECT_THROW(make_oracle(scene, {{"eta", 2.7}}), std::invalid_argument);
+  EXPECT_THROW(make_oracle(scene, {}, std::nullopt, 8), std::invalid_argument);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(EclipsedIrradiance, AnnulusIsTheDifferenceOfTwoCones) {
   // Blocker wholly inside the light's outline: the lit ring is one cone less another.
   const double annulus = kPi * (std::pow(std::sin(0.4), 2) * std::cos(0.3) -
                                 std::pow(std::sin(0.1), 2) * std::cos(0.45));
-  EXPECT_NEAR(eclipsed_irradiance(cone(0.3, 0.4), cone(0.45, 0.1)), annulus, 1e-9);
+  EXPECT_NEAR(eclipsed_irradiance(cone(0.3, 0.4), cone(0.45, 0.1)), annulus, 1e-7 * annulus);
 }
 
 TEST(EclipsedIrradiance, PenumbraAgreesWithASumOverDirections) {
@@ -104,12 +104,11 @@ TEST(SphereShadowScene, IsBlackInTheUmbraAndUnblockedFarAside) {
   // Without the blocker: π R² h/d³ over the patch, from sphere_light's own closed form.
   const double clear = make_oracle(scene, {{"blocker_x", 3.0}})->image_mean().value;
   const double x = 0.5 * std::tan(kPi / 6), y = 0.75 * x;
-  const double radiance_over_pi = 40 * 0.75 / kPi;
+  const double radiance_over_pi = 10 * 0.75 / kPi;
   const double by_hand = Quadrature::integrate(
       [&](double a) {
         return Quadrature::integrate(
-            [&](double b) { return kPi * 0.09 * 3 / std::pow(9 + a * a + b * b, 1.5); }, -y, y, 8,
-            1e-12);
+            [&](double b) { return kPi * 3 / std::pow(9 + a * a + b * b, 1.5); }, -y, y, 8, 1e-12);
       },
       -x, x, 8, 1e-12);
   EXPECT_NEAR(clear, radiance_over_pi * by_hand / (4 * x * y), 1e-6 * clear);

@@ -14,7 +14,7 @@
 namespace plumbline::tests {
 namespace {
 
-constexpr analytic::FilmSize kFilm{96, 72};
+constexpr analytic::FilmSize kFilm{48, 36};
 
 renderer::Film render_scene(const std::string& scene_name, std::uint32_t samples,
                             std::uint64_t seed) {
@@ -55,26 +55,34 @@ verify::ImageOptions options_for(const std::string& subject, verify::Verdict exp
   return options;
 }
 
-TEST(WholeImage, EveryPixelIsTheClosedFormOverItsFootprint) {
-  for (const analytic::KnownScene& known : analytic::known_scenes()) {
-    const std::string scene(known.name);
-    const auto options = options_for(scene + "/image", verify::Verdict::pass);
-    const renderer::Film film = render_scene(scene, 128, options.seed);
-    expect_verdict(check_image(options, green(film), exact(scene)).check);
-  }
+class WholeImage : public testing::TestWithParam<std::string> {};
+
+TEST_P(WholeImage, EveryPixelIsTheClosedFormOverItsFootprint) {
+  const auto options = options_for(GetParam() + "/image", verify::Verdict::pass);
+  const renderer::Film film = render_scene(GetParam(), 512, options.seed);
+  expect_verdict(check_image(options, green(film), exact(GetParam())).check);
 }
 
-TEST(WholeImage, AnAlbedoOffByOnePercentFails) {
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const analytic::KnownScene& known : analytic::known_scenes()) names.emplace_back(known.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, WholeImage, testing::ValuesIn(scene_names()),
+                         [](const auto& scene) { return scene.param; });
+
+TEST(WholeImageControl, AnAlbedoOffByOnePercentFails) {
   const auto options =
       options_for("control/furnace_open, albedo off by 1 %", verify::Verdict::fail);
-  const renderer::Film film = render_scene("furnace_open", 256, options.seed);
+  const renderer::Film film = render_scene("furnace_open", 1024, options.seed);
   expect_verdict(
       check_image(options, green(film), exact("furnace_open", {{"albedo", 0.7575}})).check);
 }
 
-TEST(WholeImage, AnImageMovedByOnePixelFailsThoughItsMeanHardlyChanges) {
+TEST(WholeImageControl, AnImageMovedByOnePixelFailsThoughItsMeanHardlyChanges) {
   const auto options = options_for("control/furnace_open, one pixel aside", verify::Verdict::fail);
-  const verify::Image image = green(render_scene("furnace_open", 256, options.seed));
+  const verify::Image image = green(render_scene("furnace_open", 1024, options.seed));
   verify::Image moved = image;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 1; x < image.width; ++x) {

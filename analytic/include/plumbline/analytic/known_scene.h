@@ -23,10 +23,13 @@ inline constexpr Strategy kStrategies[] = {Strategy::bsdf, Strategy::light,     
 /// "bsdf", "light", "uniform", "mis", "one-sample" or "average".
 std::string_view to_string(Strategy strategy);
 
-/// What a renderer without bugs can be expected to prove about a scene with a strategy: that it
-/// agrees; nothing, because the estimator's variance is infinite or hopeless; or that it does not
-/// agree, because the strategy (a negative control) is wrong there.
-enum class Expected { pass, inconclusive, fail };
+/// What a renderer without bugs can be expected to prove about a scene with a strategy.
+enum class Expected {
+  pass,               ///< that it agrees
+  infinite_variance,  ///< nothing, whatever a finite number of samples looks like
+  hopeless,           ///< nothing: the variance is finite, but beyond what can be sampled
+  fail                ///< that it does not agree: the strategy is blind to light of this scene
+};
 
 struct Expectation {
   Strategy strategy = Strategy::mis;

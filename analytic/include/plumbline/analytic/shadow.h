@@ -30,7 +30,7 @@ struct SphereCone {
 /// radiance 1: the integral over rings around the light's axis, closed in azimuth.
 ///
 /// @param light  wholly above the horizon
-/// @return       error below 1e-9 of the light's full irradiance; exactly 0 where all is covered
+/// @return       error below 1e-7 of the light's full irradiance; exactly 0 where all is covered
 /// @throws std::invalid_argument where the light dips below the horizon
 double eclipsed_irradiance(const SphereCone& light, const SphereCone& blocker);
 

@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+#include <plumbline/analytic/bsdf_albedo.h>
+#include <plumbline/analytic/fresnel.h>
+
+#include "floor_oracle.h"
+#include "scenes.h"
+
+/// White furnaces of every BSDF: a floor under a constant sky shows its directional albedo,
+/// lossless glass shows the sky.
+namespace plumbline::analytic {
+namespace {
+
+using Albedo = std::function<double(double cosine)>;
+
+/// A smooth function of a cosine, tabulated: barycentric interpolation at Chebyshev's points.
+class CosineTable {
+ public:
+  CosineTable(const Albedo& f, double low) : low_(low) {
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      const double angle = std::numbers::pi * (static_cast<double>(k) + 0.5) / kPoints;
+      x_[k] = 0.5 * (1 + low + (1 - low) * std::cos(angle));
+      weight_[k] = (k % 2 == 0 ? 1 : -1) * std::sin(angle);
+      f_[k] = f(x_[k]);
+    }
+    // Between the points, where interpolation is at its worst.
+    for (std::size_t k = 1; k < kPoints; k += 3) {
+      const double x = 0.5 * (x_[k - 1] + x_[k]);
+      error_ = std::max(error_, std::abs((*this)(x) / f(x) - 1));
+    }
+  }
+
+  double operator()(double x) const {
+    double above = 0, below = 0;
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      if (x == x_[k]) return f_[k];
+      const double w = weight_[k] / (x - x_[k]);
+      above += w * f_[k];
+      below += w;
+    }
+    return above / below;
+  }
+
+  double low() const { return low_; }
+  double error() const { return error_; }  ///< relative, seen between the points
+
+ private:
+  static constexpr std::size_t kPoints = 20;
+
+  double low_, error_ = 0;
+  std::array<double, kPoints> x_{}, weight_{}, f_{};
+};
+
+constexpr double kQuadratureError = 3e-6;  // relative, of the albedos
+
+/// No point of a plane sees another, so L = albedo(θ) Le.
+std::unique_ptr<PixelOracle> plane_furnace(const OracleInput& input, const Albedo& albedo) {
+  const double radiance = parameter(input, "radiance");
+  require(radiance >= 0 && radiance < 1e300, "radiance must be finite and not negative");
+  if (input.max_depth == 0 || input.max_depth == 1) return uniform_oracle(input.camera.film, 0);
+  double lowest = 1;
+  const double w = input.camera.film.width, h = input.camera.film.height;
+  for (const auto& [x, y] : {std::pair{0.0, 0.0}, {w, 0.0}, {0.0, h}, {w, h}}) {
+    lowest = std::min(lowest, -normalize(input.camera.direction(x, y)).z);
+  }
+  require(lowest > 0.05, "the film sees the floor at too flat an angle");
+  const CosineTable table(albedo, lowest);
+  return floor_oracle(
+      input.camera, 100,
+      [=](const Vec3&, const Vec3& to_camera) { return radiance * table(to_camera.z); },
+      {kQuadratureError + table.error(), 1e-9, 4});
+}
+
+constexpr double kAlpha = 0.3, kGlass = 1.5, kExponent = 20;
+const Index kMetal{0.2, 3.9};
+
+Vec3 at_cosine(double cosine) { return {std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine}; }
+
+double metal(double cosine) {
+  return ggx_reflection_albedo({kAlpha, kAlpha}, at_cosine(cosine),
+                               [](double c) { return interface_reflectance(c, 1, kMetal); });
+}
+
+/// What it lets through is 1/η² of the radiance below, which is Le too.
+double rough_glass(double cosine) {
+  const auto reflectance = [](double c) { return interface_reflectance(c, 1, kGlass); };
+  const Vec3 wo = at_cosine(cosine);
+  return ggx_reflection_albedo({kAlpha, kAlpha}, wo, reflectance) +
+         ggx_refraction_albedo({kAlpha, kAlpha}, wo, kGlass, [&](double c) {
+           return 1 - reflectance(c);
+         }) / (kGlass * kGlass);
+}
+
+constexpr std::string_view kBlind =
+    "half of each technique: light that only a mirror's or a glass's own direction finds counts "
+    "half";
+
+KnownScene furnace(std::string_view name, std::string_view answer, bool atoms,
+                   std::unique_ptr<PixelOracle> (*make)(const OracleInput&)) {
+  KnownScene scene;
+  scene.name = name;
+  scene.answer = answer;
+  scene.view = {{0, 0, 1}, {1.2, 0.1, 0}, {0, 0, 1}, 50};
+  scene.film = {64, 48};
+  scene.max_depth = 2;
+  scene.parameters = {{"radiance", 1, "Le of the environment [W/(m² sr)], not negative"}};
+  scene.expectations = atoms ? expect_pass_but_for({{Strategy::average, Expected::fail, kBlind}})
+                             : expect_pass_from_all();
+  scene.make = make;
+  return scene;
+}
+
+std::vector<KnownScene> floors() {
+  return {
+      furnace("furnace_phong", "L = Le * albedo(theta) of a modified Phong lobe, n = 20", false,
+              [](const OracleInput& input) {
+                return plane_furnace(input, [](double c) { return phong_albedo(kExponent, c); });
+              }),
+      furnace("furnace_two_sided",
+              "L = Le * albedo(theta) of the Phong lobe on the back of a floor, diffuse in front",
+              false,
+              [](const OracleInput& input) {
+                return plane_furnace(input, [](double c) { return phong_albedo(kExponent, c); });
+              }),
+      furnace("furnace_metal",
+              "L = Le * albedo(theta) of rough metal, GGX alpha 0.3: single scattering, by "
+              "quadrature over normals",
+              false, [](const OracleInput& input) { return plane_furnace(input, metal); }),
+      furnace("furnace_rough_glass",
+              "L = Le * (R(theta) + T(theta) / eta^2) of a rough glass surface, GGX alpha 0.3: "
+              "single scattering, by quadrature over normals",
+              false, [](const OracleInput& input) { return plane_furnace(input, rough_glass); }),
+      furnace("furnace_coat",
+              "L = Le * (E + 0.5 * (1 - E)), E(theta) what a rough coat reflects over a diffuse "
+              "base of albedo 0.5",
+              false,
+              [](const OracleInput& input) {
+                return plane_furnace(
+                    input, [](double c) { return clear_coat_albedo(kGlass, kAlpha, 0.5, c); });
+              }),
+      furnace("furnace_mirror", "L = Le * Fresnel's reflectance of metal", true,
+              [](const OracleInput& input) {
+                return plane_furnace(input,
+                                     [](double c) { return interface_reflectance(c, 1, kMetal); });
+              }),
+      furnace("furnace_blend", "L = Le * (0.6 * 0.5 + 0.4): a diffuse floor and a perfect mirror",
+              true, [](const OracleInput& input) {
+                return plane_furnace(input, [](double) { return 0.6 * 0.5 + 0.4; });
+              })};
+}
+
+/// Lossless, whatever is reflected and refracted how often: all that reaches the eye came from the
+/// sky, and outside radiance is conserved along every path.
+std::unique_ptr<PixelOracle> make_lossless(const OracleInput& input) {
+  const double radiance = parameter(input, "radiance");
+  require(radiance >= 0 && radiance < 1e300, "radiance must be finite and not negative");
+  require(input.max_depth == -1, "light that is trapped long needs an unlimited depth");
+  return uniform_oracle(input.camera.film, radiance);
+}
+
+/// Inside, L/η² is what is conserved. From points within R/η of the centre no direction meets the
+/// surface beyond the critical angle, nor does any after a reflection: r sin is kept.
+std::unique_ptr<PixelOracle> make_glass_inside(const OracleInput& input) {
+  const double eta = parameter(input, "eta");
+  const Vec3& eye = input.camera.origin;
+  require(std::sqrt(dot(eye, eye)) < 1 / eta,
+          "beyond R/eta from the centre some directions are trapped");
+  const double radiance = parameter(input, "radiance");
+  require(radiance >= 0 && radiance < 1e300, "radiance must be finite and not negative");
+  require(input.max_depth == -1, "light that is trapped long needs an unlimited depth");
+  return uniform_oracle(input.camera.film, eta * eta * radiance);
+}
+
+KnownScene glass_sphere() {
+  KnownScene scene =
+      furnace("glass_sphere", "L = Le: a lossless glass sphere does not show", true, make_lossless);
+  scene.view = {{0, -4, 0}, {0.4, 0, 0.2}, {0, 0, 1}, 50};
+  scene.max_depth = -1;
+  scene.parameters.push_back({"eta", 1.5, "index of the glass, 0.4 to 2.5"});
+  scene.variants = {{"eta_1", {{"eta", 1.0}}, {}}};
+  return scene;
+}
+
+KnownScene glass_film() {
+  KnownScene scene = glass_sphere();
+  scene.name = "glass_film";
+  scene.answer = "L = Le: nor does one with a film of 400 nm on it";
+  scene.parameters.pop_back();
+  scene.variants.clear();
+  return scene;
+}
+
+KnownScene glass_inside() {
+  KnownScene scene = glass_sphere();
+  scene.name = "glass_inside";
+  scene.answer = "L = eta^2 * Le, seen from inside a glass sphere within R / eta of its centre";
+  scene.view = {{0.3, 0.2, -0.1}, {1, 0.4, 0.3}, {0, 0, 1}, 90};
+  scene.variants.clear();
+  scene.make = make_glass_inside;
+  return scene;
+}
+
+}  // namespace
+
+std::vector<KnownScene> bsdf_scenes() {
+  std::vector<KnownScene> scenes = floors();
+  for (const KnownScene& glass : {glass_sphere(), glass_film(), glass_inside()}) {
+    scenes.push_back(glass);
+  }
+  return scenes;
+}
+
+}  // namespace plumbline::analytic

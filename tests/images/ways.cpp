@@ -1,0 +1,104 @@
+#include "ways.h"
+
+#include <algorithm>
+
+namespace plumbline::tests {
+namespace {
+
+using renderer::Heuristic;
+using renderer::PathOptions;
+using renderer::SamplerType;
+using renderer::Strategy;
+using renderer::Weighting;
+using Roulette = Way::Roulette;
+
+PathOptions single(Strategy strategy) {
+  PathOptions path;
+  path.strategy = strategy;
+  return path;
+}
+
+PathOptions mis(const Weighting& weighting, int bsdf, int light) {
+  PathOptions path;
+  path.heuristic = weighting;
+  path.bsdf_samples = bsdf;
+  path.light_samples = light;
+  return path;
+}
+
+PathOptions one_sample(const Weighting& weighting, float light_probability) {
+  PathOptions path = single(Strategy::one_sample);
+  path.heuristic = weighting;
+  path.light_probability = light_probability;
+  return path;
+}
+
+}  // namespace
+
+std::string Way::name() const {
+  std::string text(renderer::name(path.strategy));
+  if (path.strategy == Strategy::mis) {
+    text.append(" ").append(std::to_string(path.bsdf_samples));
+    text.append(",").append(std::to_string(path.light_samples));
+  }
+  if (path.strategy == Strategy::one_sample) {
+    text.append(" ").append(path.light_probability == 0.5f ? "half" : "fifth");
+  }
+  if (uses_heuristic(path.strategy)) text.append(" ").append(describe(path.heuristic));
+  if (sampler != SamplerType::independent) text.append(" ").append(renderer::name(sampler));
+  if (roulette == Roulette::early) text.append(" early-roulette");
+  if (roulette == Roulette::off) text.append(" no-roulette");
+  return text;
+}
+
+PathOptions Way::options(const renderer::IntegratorDescription& integrator) const {
+  PathOptions result = path;
+  result.max_depth = integrator.max_depth;
+  result.rr_depth = integrator.rr_depth;
+  if (roulette == Roulette::early) result.rr_depth = 1;
+  if (roulette == Roulette::off && integrator.max_depth >= 0) {
+    result.rr_depth = renderer::kNoRoulette;
+  }
+  return result;
+}
+
+std::vector<Way> covering_ways() {
+  return {{single(Strategy::bsdf), SamplerType::sobol, Roulette::off},
+          {single(Strategy::light), SamplerType::independent, Roulette::early},
+          {single(Strategy::uniform), SamplerType::sobol, Roulette::scene},
+          {mis(Heuristic::power, 1, 1), SamplerType::independent, Roulette::off},
+          {mis(Heuristic::balance, 1, 4), SamplerType::sobol, Roulette::early},
+          {mis({Heuristic::power, 1.5}, 4, 1), SamplerType::independent, Roulette::scene},
+          {mis(Heuristic::cutoff, 2, 2), SamplerType::sobol, Roulette::scene},
+          {mis(Heuristic::maximum, 1, 1), SamplerType::sobol, Roulette::scene},
+          {one_sample(Heuristic::power, 0.5f), SamplerType::sobol, Roulette::early},
+          {one_sample(Heuristic::cutoff, 0.2f), SamplerType::independent, Roulette::scene},
+          {single(Strategy::average), SamplerType::independent, Roulette::scene}};
+}
+
+std::vector<Way> representative_ways() {
+  return {{single(Strategy::light), SamplerType::independent, Roulette::scene},
+          {mis(Heuristic::power, 1, 1), SamplerType::sobol, Roulette::scene},
+          {one_sample(Heuristic::balance, 0.5f), SamplerType::independent, Roulette::early}};
+}
+
+std::vector<Way> all_ways() {
+  std::vector<PathOptions> paths = {single(Strategy::bsdf), single(Strategy::light),
+                                    single(Strategy::uniform), single(Strategy::average)};
+  for (const Heuristic heuristic : renderer::kHeuristics) {
+    paths.push_back(mis(heuristic, 1, 1));
+    paths.push_back(one_sample(heuristic, 0.5f));
+  }
+  std::vector<Way> ways = covering_ways();
+  for (const PathOptions& path : paths) {
+    for (const SamplerType sampler : renderer::kSamplers) {
+      const Way way{path, sampler, Roulette::scene};
+      const bool covered = std::any_of(ways.begin(), ways.end(),
+                                       [&](const Way& w) { return w.name() == way.name(); });
+      if (!covered) ways.push_back(way);
+    }
+  }
+  return ways;
+}
+
+}  // namespace plumbline::tests

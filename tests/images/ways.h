@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <plumbline/renderer/render/path.h>
+#include <plumbline/renderer/scene/description.h>
+
+namespace plumbline::tests {
+
+/// One way to render a scene: strategy, heuristic, counts or probability, sampler, roulette.
+struct Way {
+  enum class Roulette { scene, early, off };
+
+  renderer::PathOptions path;
+  renderer::SamplerType sampler = renderer::SamplerType::independent;
+  Roulette roulette = Roulette::scene;
+
+  /// "mis 1,4 power=2 sobol no-roulette": what differs from the usual is named.
+  std::string name() const;
+
+  /// For a scene: its depth, and its roulette where the way has none of its own. Paths of unlimited
+  /// depth keep theirs, or they would not end.
+  renderer::PathOptions options(const renderer::IntegratorDescription& integrator) const;
+};
+
+/// Each value of each option at least once.
+std::vector<Way> covering_ways();
+
+/// A few that differ most, for variants of a scene.
+std::vector<Way> representative_ways();
+
+/// Every strategy with every heuristic that it uses and every sampler, and the covering ways.
+std::vector<Way> all_ways();
+
+}  // namespace plumbline::tests
