@@ -50,7 +50,7 @@ class CosineTable {
   double error() const { return error_; }  ///< relative, seen between the points
 
  private:
-  static constexpr std::size_t kPoints = 20;
+  static constexpr std::size_t kPoints = 12;
 
   double low_, error_ = 0;
   std::array<double, kPoints> x_{}, weight_{}, f_{};
@@ -76,7 +76,7 @@ std::unique_ptr<PixelOracle> plane_furnace(const OracleInput& input, const Albed
       {kQuadratureError + table.error(), 1e-9, 4});
 }
 
-constexpr double kAlpha = 0.3, kGlass = 1.5, kExponent = 20;
+constexpr double kAlpha = 0.5, kGlass = 1.5, kExponent = 20;
 const Index kMetal{0.2, 3.9};
 
 Vec3 at_cosine(double cosine) { return {std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine}; }
@@ -128,11 +128,11 @@ std::vector<KnownScene> floors() {
                 return plane_furnace(input, [](double c) { return phong_albedo(kExponent, c); });
               }),
       furnace("furnace_metal",
-              "L = Le * albedo(theta) of rough metal, GGX alpha 0.3: single scattering, by "
+              "L = Le * albedo(theta) of rough metal, GGX alpha 0.5: single scattering, by "
               "quadrature over normals",
               false, [](const OracleInput& input) { return plane_furnace(input, metal); }),
       furnace("furnace_rough_glass",
-              "L = Le * (R(theta) + T(theta) / eta^2) of a rough glass surface, GGX alpha 0.3: "
+              "L = Le * (R(theta) + T(theta) / eta^2) of a rough glass surface, GGX alpha 0.5: "
               "single scattering, by quadrature over normals",
               false, [](const OracleInput& input) { return plane_furnace(input, rough_glass); }),
       furnace("furnace_coat",

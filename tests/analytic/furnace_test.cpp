@@ -107,7 +107,7 @@ TEST(PlaneFurnace, ShowsTheAlbedoAtTheAngleOfEachPixel) {
   for (const auto& [x, y] : {std::pair{0, 0}, {32000, 24000}, {60000, 47000}}) {
     const double cosine = -normalize(camera.direction(x + 0.5, y + 0.5)).z;
     const double sine = std::sqrt(1 - cosine * cosine);
-    const double albedo = ggx_reflection_albedo({0.3, 0.3}, {sine, 0, cosine}, [](double c) {
+    const double albedo = ggx_reflection_albedo({0.5, 0.5}, {sine, 0, cosine}, [](double c) {
       return interface_reflectance(c, 1, {0.2, 3.9});
     });
     const Average seen = oracle->pixel_mean(x, y);
