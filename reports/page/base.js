@@ -141,6 +141,21 @@ function sortableTable(columns, rows) {
   return element('div', {className: 'scroll'}, element('table', {}, head, body));
 }
 
+/** Lets a row with a button show another below it; returns what does that without a click. */
+function openOnClick(row, makeDetails) {
+  let details = null;
+  const toggle = () => {
+    if (details) details.remove();
+    details = details ? null : makeDetails();
+    if (details) row.after(details);
+    row.querySelector('button').setAttribute('aria-expanded', String(details !== null));
+  };
+  row.addEventListener('click', () => {
+    if (String(getSelection()) === '') toggle();
+  });
+  return toggle;
+}
+
 const textColumn = (name, get, more = {}) => ({name, sort: get, cell: get, ...more});
 const numberColumn = (name, get, format = formatNumber, more = {}) => ({
   name,

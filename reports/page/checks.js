@@ -96,17 +96,7 @@ function checkRow(check) {
     {className: `check${check.as_expected ? '' : ' unexpected'}`},
     checkColumns.map((column) => bodyCell(column, check)),
   );
-  let details = null;
-  const toggle = () => {
-    if (details) details.remove();
-    details = details ? null : checkDetails(check);
-    if (details) row.after(details);
-    row.querySelector('button').setAttribute('aria-expanded', String(details !== null));
-  };
-  row.addEventListener('click', () => {
-    if (String(getSelection()) === '') toggle();
-  });
-  return {row, open: toggle};
+  return {row, open: openOnClick(row, () => checkDetails(check))};
 }
 
 function suiteSummary(checks) {

@@ -78,6 +78,7 @@ addNotices();
 addImages();
 addVarianceRatios();
 addCalibration();
+addStability();
 addSpeed();
 addRayCosts();
 addFigures();

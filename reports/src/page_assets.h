@@ -11,6 +11,7 @@ extern const std::string_view page_base_js;
 extern const std::string_view page_checks_js;
 extern const std::string_view page_images_js;
 extern const std::string_view page_plots_js;
+extern const std::string_view page_stability_js;
 extern const std::string_view page_main_js;
 extern const std::string_view chart_js;
 

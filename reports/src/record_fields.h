@@ -14,6 +14,7 @@ inline constexpr const char* kEnvironmentFormat = "plumbline.environment/1";
 inline constexpr const char* kRenderFormat = "plumbline.render/1";
 inline constexpr const char* kSpeedFormat = "plumbline.speed/1";
 inline constexpr const char* kRayCostFormat = "plumbline.ray_cost/1";
+inline constexpr const char* kStabilityFormat = "plumbline.stability/1";
 inline constexpr const char* kFigureFormat = "plumbline.figure/1";
 
 /// Whether `T`, const or not, is `Record`: one function serves the writer and the reader.
@@ -62,6 +63,20 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("ratio", r.ratio);
   visit("ratio_low", r.ratio_low);
   visit("ratio_high", r.ratio_high);
+}
+
+template <class Visitor, Is<StabilityRecord> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("bsdf", r.bsdf);
+  visit("function", r.function);
+  visit("points", r.points);
+  visit("error", r.error);
+  visit("tolerance", r.tolerance);
+  visit("place", r.place);
+  visit("ill_conditioned", r.ill_conditioned);
+  visit("ill_conditioned_error", r.ill_conditioned_error);
+  visit("condition", r.condition);
+  visit("ill_conditioned_place", r.ill_conditioned_place);
 }
 
 template <>

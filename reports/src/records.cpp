@@ -54,6 +54,14 @@ RayCost parse_ray_cost(std::string_view json) {
   return detail::parse_document<RayCost>(detail::kRayCostFormat, json);
 }
 
+std::string to_json(const StabilityRecord& record) {
+  return detail::document(detail::kStabilityFormat, record);
+}
+
+StabilityRecord parse_stability_record(std::string_view json) {
+  return detail::parse_document<StabilityRecord>(detail::kStabilityFormat, json);
+}
+
 std::string to_json(const Figure& figure) {
   require_same_lengths(figure);
   return detail::document(detail::kFigureFormat, figure);

@@ -5,12 +5,15 @@
 #include <boost/math/special_functions/atanh.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include <plumbline/reports/results.h>
 
 #include "examples.h"
 #include "hard_points.h"
@@ -145,16 +148,19 @@ double change_by_one_ulp(const Subject& subject, const BsdfRef& bsdf, const Inpu
 /// The worst of many points, and how many are ill-conditioned in their inputs.
 struct Tally {
   std::size_t points = 0, ill_conditioned = 0;
-  double worst = 0, worst_ill_conditioned = 0, largest_condition = 0;
-  Inputs place;
+  double worst = 0, worst_ill_conditioned = 0;
+  double condition = 0;  // at the worst of the ill-conditioned ones
+  Inputs place, ill_conditioned_place;
 
   void add(double error, double by_one_ulp, const Inputs& x) {
     ++points;
     // A float's ulp is at least 2⁻²⁴ of it, so by_one_ulp·2²⁴ is the condition number.
-    if (error > kTolerance && error <= kRoundings * by_one_ulp) {
+    if (error > kTolerance && std::isfinite(error) && error <= kRoundings * by_one_ulp) {
       ++ill_conditioned;
-      worst_ill_conditioned = std::max(worst_ill_conditioned, error);
-      largest_condition = std::max(largest_condition, by_one_ulp * 0x1p24);
+      if (error <= worst_ill_conditioned) return;
+      worst_ill_conditioned = error;
+      condition = by_one_ulp * 0x1p24;
+      ill_conditioned_place = x;
     } else if (!(error <= worst)) {
       worst = error;
       place = x;
@@ -198,6 +204,7 @@ void compare_from(const Subject& subject, const BsdfRef& bsdf, const Vec3f& wo, 
 }
 
 std::string text(const Inputs& x, bool of_directions) {
+  if (x.empty()) return {};
   std::ostringstream out;
   out.precision(9);
   out << "wo (" << x[0] << ", " << x[1] << ", " << x[2] << (of_directions ? "), wi (" : "), u (")
@@ -222,8 +229,26 @@ verify::CheckResult result_of(const std::string& name, const Subject& subject, c
   }
   result.figures = {{"ill-conditioned points", static_cast<double>(tally.ill_conditioned)},
                     {"largest error there", tally.worst_ill_conditioned},
-                    {"largest condition number there", tally.largest_condition}};
+                    {"condition number there", tally.condition}};
   return result;
+}
+
+/// Notes a row of the page's table, if results are asked for.
+void publish(const std::string& name, const Subject& subject, const Tally& tally) {
+  const char* directory = std::getenv("PLUMBLINE_RESULTS");
+  if (directory == nullptr || *directory == '\0') return;
+  reports::StabilityRecord record;
+  record.bsdf = name;
+  record.function = subject.name;
+  record.points = tally.points;
+  record.error = tally.worst;
+  record.tolerance = kTolerance;
+  record.place = text(tally.place, subject.of_directions);
+  record.ill_conditioned = tally.ill_conditioned;
+  record.ill_conditioned_error = tally.worst_ill_conditioned;
+  record.condition = tally.condition;
+  record.ill_conditioned_place = text(tally.ill_conditioned_place, subject.of_directions);
+  reports::ResultLog(directory, "stability").append(record);
 }
 
 /// About as many points for every BSDF, whatever the number of its examples.
@@ -240,6 +265,7 @@ void check_bsdf(const std::vector<Example>& examples) {
         compare_from(subject, example.bsdf, wo, count, random, tally);
       }
       expect_verdict(result_of(example.name, subject, tally));
+      publish(example.name, subject, tally);
     }
   }
 }

@@ -38,6 +38,7 @@ TEST(Formats, EveryRecordSurvivesTheRoundTrip) {
   EXPECT_EQ(parse_render_record(to_json(sample_render())), sample_render());
   EXPECT_EQ(parse_speed_point(to_json(sample_speed_point())), sample_speed_point());
   EXPECT_EQ(parse_ray_cost(to_json(sample_ray_cost())), sample_ray_cost());
+  EXPECT_EQ(parse_stability_record(to_json(sample_stability_record())), sample_stability_record());
   EXPECT_EQ(parse_figure(to_json(sample_figure())), sample_figure());
 }
 
@@ -84,6 +85,7 @@ TEST(Formats, EachStatesItsFormatFirstOnOneLine) {
       {to_json(sample_render()), "plumbline.render/1"},
       {to_json(sample_speed_point()), "plumbline.speed/1"},
       {to_json(sample_ray_cost()), "plumbline.ray_cost/1"},
+      {to_json(sample_stability_record()), "plumbline.stability/1"},
       {to_json(sample_figure()), "plumbline.figure/1"},
   };
   for (const auto& [text, format] : cases) {

@@ -34,6 +34,7 @@ PageInput sample_input() {
   input.results.renders = {sample_render()};
   input.results.speed = {sample_speed_point()};
   input.results.ray_costs = {sample_ray_cost()};
+  input.results.stability = {sample_stability_record()};
   input.results.figures = {sample_figure()};
   input.images = {{"furnace_sphere", "mis, power", 1, 1, {0.5f, 0.25f, 0.125f}}};
   return input;
@@ -92,6 +93,7 @@ TEST(Page, HoldsEveryRecordOfTheResults) {
   EXPECT_EQ(data["renders"][0]["scene"], "furnace_sphere");
   EXPECT_EQ(data["speed"][0]["curves"][0]["strategy"], "one-sample");
   EXPECT_EQ(data["ray_costs"][0]["ratio"], 0.75);
+  EXPECT_EQ(data["stability"][0]["condition"], 3e5);
   EXPECT_EQ(data["figures"][0]["title"], "Error against samples");
   EXPECT_EQ(data["images"][0]["group"], "furnace_sphere");
 }
@@ -122,6 +124,7 @@ TEST(Page, NoTextCanEndTheScriptThatHoldsIt) {
   PageInput input = sample_input();
   const std::string hostile = "</script><script>alert(1)</script><!--<script>{{css}}\u2028";
   input.results.checks[0].reason = hostile;
+  input.results.stability[0].place = hostile;
   input.results.figures[0].title = hostile;
   input.results.renders[0].parameters = {{hostile, hostile}};
   input.results.warnings = {{"a.jsonl", 1, hostile}};

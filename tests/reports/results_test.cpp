@@ -48,6 +48,7 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
     ResultLog bench(scratch / "bench", "bench");
     bench.append(sample_speed_point());
     bench.append(sample_ray_cost());
+    bench.append(sample_stability_record());
     bench.append(sample_figure());
   }
   fs::create_directories(scratch / "images");
@@ -59,6 +60,7 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
   EXPECT_EQ(results.checks.size(), 1u);
   EXPECT_EQ(results.speed.size(), 1u);
   EXPECT_EQ(results.ray_costs.size(), 1u);
+  EXPECT_EQ(results.stability.size(), 1u);
   EXPECT_EQ(results.figures.size(), 1u);
   ASSERT_EQ(results.renders.size(), 1u);
   EXPECT_EQ(fs::weakly_canonical(results.renders[0].image), fs::weakly_canonical(render.image));

@@ -100,6 +100,21 @@ reports::RayCost sample_ray_cost() {
   return cost;
 }
 
+reports::StabilityRecord sample_stability_record() {
+  reports::StabilityRecord record;
+  record.bsdf = "GgxDielectric/eta 1.01 alpha 0.3";
+  record.function = "weight";
+  record.points = 10'000;
+  record.error = 2.5e-5;
+  record.tolerance = 1e-3;
+  record.place = "wo (0, 0, 1), u (0.5, 0.25)";
+  record.ill_conditioned = 12;
+  record.ill_conditioned_error = 0.125;
+  record.condition = 3e5;
+  record.ill_conditioned_place = "wo (1, 0, 0), u (0, 0.75)";
+  return record;
+}
+
 reports::Figure sample_figure() {
   reports::Figure figure;
   figure.group = "Integrals with known answers";

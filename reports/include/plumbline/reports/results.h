@@ -11,6 +11,7 @@
 #include <plumbline/reports/errors.h>
 #include <plumbline/reports/figure.h>
 #include <plumbline/reports/render_record.h>
+#include <plumbline/reports/stability_record.h>
 #include <plumbline/verify/result.h>
 
 namespace plumbline::reports {
@@ -38,6 +39,7 @@ class ResultLog {
   void append(const verify::CheckResult& result) { append_line(to_json(result)); }
   void append(const SpeedPoint& point) { append_line(to_json(point)); }
   void append(const RayCost& cost) { append_line(to_json(cost)); }
+  void append(const StabilityRecord& record) { append_line(to_json(record)); }
   void append(const Figure& figure) { append_line(to_json(figure)); }
   void append(const RunEnvironment& environment) { append_line(to_json(environment)); }
 
@@ -61,6 +63,7 @@ struct Results {
   std::vector<RenderRecord> renders;
   std::vector<SpeedPoint> speed;
   std::vector<RayCost> ray_costs;
+  std::vector<StabilityRecord> stability;
   std::vector<Figure> figures;
   std::vector<RunEnvironment> environments;  ///< one per build and machine, the latest of each
   std::vector<ReadWarning> warnings;
