@@ -32,6 +32,43 @@ TEST(ShippedScenes, AreAllTaken) {
   }
 }
 
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(ShippedScenes, AreThereForPbrtWhereItHasTheMaterials) {
+  for (const auto& file : scene_files()) {
+    if (file.parent_path().filename() != "scenes" ||
+        file.parent_path().parent_path().filename() != "analytic") {
+      continue;
+    }
+    const std::string xml = text_of(file);
+    bool expressible = true;
+    for (const char* type : {"phong", "clearcoat", "thinfilm", "blendbsdf", "twosided", "sun"}) {
+      expressible =
+          expressible && xml.find("type=\"" + std::string(type) + "\"") == std::string::npos;
+    }
+    std::filesystem::path pbrt = file;
+    pbrt.replace_extension(".pbrt");
+    EXPECT_EQ(std::filesystem::exists(pbrt), expressible) << pbrt;
+    if (expressible) {
+      // As many shapes, one camera, the same film.
+      const std::string text = text_of(pbrt);
+      const auto count = [](const std::string& in, const std::string& word) {
+        std::size_t n = 0;
+        for (std::size_t at = in.find(word); at != std::string::npos; at = in.find(word, at + 1)) {
+          ++n;
+        }
+        return n;
+      };
+      EXPECT_EQ(count(text, "  Shape \""), count(xml, "<shape ")) << pbrt;
+      EXPECT_EQ(count(text, "AreaLightSource"), count(xml, "<emitter type=\"area\"")) << pbrt;
+      EXPECT_EQ(count(text, "Camera \"perspective\""), 1u) << pbrt;
+    }
+  }
+}
+
 /// The blocks between ```xml and ``` of docs/scene_format.md.
 std::vector<std::string> documented_examples() {
   std::ifstream in(kSource / "docs/scene_format.md");
