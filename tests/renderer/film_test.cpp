@@ -45,6 +45,20 @@ TEST(Film, MeanDoesNotStallWhereAFloatSumWould) {
   EXPECT_EQ(naive_sum / static_cast<float>(kCount), 0.5f);
 }
 
+TEST(Film, MeanStillMovesAfterABillionSamples) {
+  // Half zeros, half ones, 2^30 in all. A running mean in float cannot go on from 0.5: one more
+  // sample moves it by 2^-31, and the next float is 2^-24 away.
+  PixelMoments moments;
+  moments.add({0, 0, 0});
+  moments.add({1, 1, 1});
+  for (int i = 1; i < 30; ++i) moments.merge(PixelMoments(moments));
+  EXPECT_EQ(moments.count, 1u << 30);
+  EXPECT_NEAR(moments.variance().g, 0.25, 1e-9);
+  constexpr int kMore = 1 << 20;
+  for (int i = 0; i < kMore; ++i) moments.add({1, 1, 1});
+  EXPECT_NEAR(moments.mean.g, (0x1p29 + kMore) / (0x1p30 + kMore), 1e-12);
+}
+
 TEST(Film, NonFiniteSamplesAreCountedAndLeftOut) {
   PixelMoments moments;
   moments.add({1, 1, 1});
