@@ -31,6 +31,29 @@ const Light kRectangle = RectangleLight{{-1, -1, 2}, {2, 0, 0}, {0, 2, 0}, {0, 0
 const Light kDisk = DiskLight{{0, 0, 2}, {0, 0, -1}, 1, kWhite};
 const Light kTriangle = TriangleLight{{-1, -1, 2}, {2, 0, 0}, {0, 2, 0}, {0, 0, -1}, kWhite};
 const Light kEnvironment = ConstantEnvironment{kWhite};
+const Light kSun = SunAndSky::make({0, 0, 1}, 0.005, kWhite, kWhite);
+const Light kPoint = PointLight{{0, 0, 2}, kWhite};
+
+/// Sampled by the solid angle that it subtends.
+template <class L>
+Light by_solid_angle(const Light& light) {
+  auto copy = std::get<L>(light);
+  copy.by_solid_angle = true;
+  return copy;
+}
+
+const Light kSphericalRectangle = by_solid_angle<RectangleLight>(kRectangle);
+const Light kSphericalTriangle = by_solid_angle<TriangleLight>(kTriangle);
+
+/// 1024 by 512 pixels of noise, as many choices as an outdoor map has.
+Light noise_map() {
+  Pcg32 random(2, 0, 0);
+  std::vector<Rgbf> pixels(std::size_t{1024} * 512);
+  for (Rgbf& pixel : pixels) pixel = kWhite * random.next_1d();
+  return EnvironmentMap{std::make_shared<EnvironmentTable>(1024, 512, std::move(pixels), false)};
+}
+
+const Light kMap = noise_map();
 
 void light_sample(benchmark::State& state, const Light& light) {
   Pcg32 random(1, 0, 0);
@@ -43,6 +66,31 @@ void light_pdf(benchmark::State& state, const Light& light) {
     const Vec3f wi = square_to_uniform_hemisphere(random.next_2d());
     benchmark::DoNotOptimize(pdf(light, Vec3f{}, wi));
   }
+}
+
+/// Irradiance of a floor below the corner of a light, near it or far: what a sample costs, and as
+/// the counter `variance` what it is worth, relative to the square of the mean.
+void irradiance(benchmark::State& state, const Light& light, float distance) {
+  Pcg32 random(1, 0, 0);
+  const Vec3f reference{-1.2f, -1.2f, 2 - distance};
+  double count = 0, sum = 0, squares = 0;
+  for (auto _ : state) {
+    const auto s = sample(light, reference, random.next_2d());
+    const double x = s ? static_cast<double>(std::max(s->wi.z, 0.0f) / s->pdf_w) : 0;
+    count += 1;
+    sum += x;
+    squares += x * x;
+  }
+  state.counters["variance"] = squares * count / (sum * sum) - 1;
+}
+
+/// A choice among `count` lights of different power.
+void light_selection(benchmark::State& state, std::uint32_t count) {
+  Pcg32 random(1, 0, 0);
+  std::vector<double> weights(count);
+  for (double& weight : weights) weight = static_cast<double>(random.next_1d());
+  const DiscreteDistribution distribution(weights);
+  for (auto _ : state) benchmark::DoNotOptimize(distribution.sample(random.next_1d()));
 }
 
 /// Two numbers, through the variant. What starting a sample costs is spread over the 16 pairs of a
@@ -69,6 +117,26 @@ BENCHMARK_CAPTURE(light_pdf, disk, kDisk);
 BENCHMARK_CAPTURE(light_sample, triangle, kTriangle);
 BENCHMARK_CAPTURE(light_pdf, triangle, kTriangle);
 BENCHMARK_CAPTURE(light_sample, environment, kEnvironment);
+BENCHMARK_CAPTURE(light_sample, rectangle_by_solid_angle, kSphericalRectangle);
+BENCHMARK_CAPTURE(light_pdf, rectangle_by_solid_angle, kSphericalRectangle);
+BENCHMARK_CAPTURE(light_sample, triangle_by_solid_angle, kSphericalTriangle);
+BENCHMARK_CAPTURE(light_pdf, triangle_by_solid_angle, kSphericalTriangle);
+BENCHMARK_CAPTURE(light_sample, environment_map, kMap);
+BENCHMARK_CAPTURE(light_pdf, environment_map, kMap);
+BENCHMARK_CAPTURE(light_sample, sun_and_sky, kSun);
+BENCHMARK_CAPTURE(light_pdf, sun_and_sky, kSun);
+BENCHMARK_CAPTURE(light_sample, point, kPoint);
+BENCHMARK_CAPTURE(irradiance, rectangle_near, kRectangle, 0.2f);
+BENCHMARK_CAPTURE(irradiance, rectangle_by_solid_angle_near, kSphericalRectangle, 0.2f);
+BENCHMARK_CAPTURE(irradiance, rectangle_far, kRectangle, 4.0f);
+BENCHMARK_CAPTURE(irradiance, rectangle_by_solid_angle_far, kSphericalRectangle, 4.0f);
+BENCHMARK_CAPTURE(irradiance, triangle_near, kTriangle, 0.2f);
+BENCHMARK_CAPTURE(irradiance, triangle_by_solid_angle_near, kSphericalTriangle, 0.2f);
+BENCHMARK_CAPTURE(irradiance, triangle_far, kTriangle, 4.0f);
+BENCHMARK_CAPTURE(irradiance, triangle_by_solid_angle_far, kSphericalTriangle, 4.0f);
+BENCHMARK_CAPTURE(light_selection, 1, 1);
+BENCHMARK_CAPTURE(light_selection, 5, 5);
+BENCHMARK_CAPTURE(light_selection, 1000, 1000);
 
 }  // namespace
 }  // namespace plumbline::renderer

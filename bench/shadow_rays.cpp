@@ -49,7 +49,7 @@ std::vector<Ray> record_shadow_rays(const Scene& scene) {
     for (int bounce = 0; bounce < 2; ++bounce) {
       const auto hit = scene.intersect(ray);
       if (!hit) break;
-      const auto light = scene.lights().sample(hit->position, random.next_2d());
+      const auto light = scene.lights().sample(hit->position, random.next_1d(), random.next_2d());
       if (light && dot(hit->normal, light->wi) > 0) {
         const Ray shadow = shadow_ray(*hit, *light);
         if (shadow.t_max > 0) rays.push_back(shadow);

@@ -14,6 +14,7 @@ namespace plumbline::bench {
 namespace {
 
 using renderer::Heuristic;
+using renderer::SamplerType;
 using renderer::Scene;
 using renderer::Strategy;
 
@@ -50,7 +51,7 @@ reports::SpeedPoint measure(const Scene& scene, renderer::RenderOptions options,
   }
   const Estimate error = mean_with_interval(errors);
   reports::SpeedPoint point;
-  point.sampler = "independent";
+  point.sampler = std::string(renderer::name(options.sampler));
   point.samples_per_pixel = options.samples_per_pixel;
   point.seconds = seconds;
   point.rays = rays / static_cast<std::uint64_t>(replicates);
@@ -61,6 +62,28 @@ reports::SpeedPoint measure(const Scene& scene, renderer::RenderOptions options,
   return point;
 }
 
+/// Error at growing numbers of samples.
+void measure_curve(const std::string& name, const Scene& scene, renderer::RenderOptions options,
+                   const std::vector<double>& reference, const Work& work,
+                   reports::ResultLog& log) {
+  const Strategy strategy = options.path.strategy;
+  for (std::uint32_t samples = 1; samples <= work.most_samples; samples *= 4) {
+    options.samples_per_pixel = samples;
+    reports::SpeedPoint point = measure(scene, options, reference, work.replicates);
+    point.scene = name;
+    point.strategy = std::string(renderer::name(strategy));
+    if (uses_heuristic(strategy)) {
+      point.heuristic = std::string(renderer::name(options.path.heuristic.heuristic));
+    }
+    log.append(point);
+    if (samples == work.most_samples) {
+      fmt::print("  {:14} {:10} {:8} {:11} {:4} spp  {:8.4f} s  relMSE {:.3e}  relMSE x s {:.3e}\n",
+                 name, point.strategy, point.heuristic, point.sampler, samples, point.seconds,
+                 point.rel_mse, point.rel_mse * point.seconds);
+    }
+  }
+}
+
 void measure_scene(const std::string& name, const Work& work, reports::ResultLog& log) {
   const auto description = load_at_size(name, work.width, work.height);
   const Scene scene(description);
@@ -69,21 +92,14 @@ void measure_scene(const std::string& name, const Work& work, reports::ResultLog
     if (strategy == Strategy::average) continue;  // a negative control
     for (const Heuristic heuristic : kHeuristics) {
       if (!uses_heuristic(strategy) && heuristic != kHeuristics.front()) continue;
-      renderer::RenderOptions options;
-      options.path = {strategy, heuristic, description.integrator.max_depth,
-                      description.integrator.rr_depth};
-      for (std::uint32_t samples = 1; samples <= work.most_samples; samples *= 4) {
-        options.samples_per_pixel = samples;
-        reports::SpeedPoint point = measure(scene, options, reference, work.replicates);
-        point.scene = name;
-        point.strategy = std::string(renderer::name(strategy));
-        if (uses_heuristic(strategy)) point.heuristic = std::string(renderer::name(heuristic));
-        log.append(point);
-        if (samples == work.most_samples) {
-          fmt::print("  {:14} {:10} {:8} {:4} spp  {:8.4f} s  relMSE {:.3e}  relMSE x s {:.3e}\n",
-                     name, point.strategy, point.heuristic, samples, point.seconds, point.rel_mse,
-                     point.rel_mse * point.seconds);
-        }
+      for (const SamplerType sampler : renderer::kSamplers) {
+        // Sobol for the strategy of everyday use only: the minutes are short.
+        if (sampler == SamplerType::sobol && strategy != Strategy::mis) continue;
+        renderer::RenderOptions options;
+        options.path = {strategy, heuristic, description.integrator.max_depth,
+                        description.integrator.rr_depth};
+        options.sampler = sampler;
+        measure_curve(name, scene, options, reference, work, log);
       }
     }
   }

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -21,6 +19,7 @@
 #include "numbers.h"
 #include "output_file.h"
 #include "progress.h"
+#include "render_values.h"
 #include "scene_argument.h"
 
 namespace plumbline::tools {
@@ -39,6 +38,7 @@ struct RenderArguments {
   std::string roulette;
   renderer::SamplerType sampler = renderer::SamplerType::independent;
   std::optional<std::uint32_t> replicates;
+  renderer::LightSelection light_selection = renderer::LightSelection::uniform;
   std::optional<std::uint32_t> samples;
   double seconds = 0;
   double error = 0;
@@ -48,52 +48,6 @@ struct RenderArguments {
   std::string size;
   std::vector<std::string> definitions;
 };
-
-template <class Values>
-std::vector<std::string> names_of(const Values& values) {
-  std::vector<std::string> names;
-  names.reserve(std::size(values));
-  for (const auto value : values) names.emplace_back(name(value));
-  return names;
-}
-
-/// "WxH"
-std::optional<renderer::FilmSize> parse_size(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  renderer::FilmSize size;
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.width);
-  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-    const auto height = std::from_chars(width.ptr + 1, end, size.height);
-    if (height.ec == std::errc() && height.ptr == end) return size;
-  }
-  throw renderer::InputError(fmt::format("--size {}: must read WIDTHxHEIGHT", text));
-}
-
-/// "BSDF,LIGHT": two sample counts, not both 0.
-void set_counts(const std::string& text, renderer::PathOptions& path) {
-  constexpr int kMaxCount = 4096;
-  const char* end = text.data() + text.size();
-  const auto bsdf = std::from_chars(text.data(), end, path.bsdf_samples);
-  if (bsdf.ec == std::errc() && bsdf.ptr != end && *bsdf.ptr == ',') {
-    const auto light = std::from_chars(bsdf.ptr + 1, end, path.light_samples);
-    const auto [low, high] = std::minmax(path.bsdf_samples, path.light_samples);
-    if (light.ec == std::errc() && light.ptr == end && low >= 0 && high >= 1 && high <= kMaxCount) {
-      return;
-    }
-  }
-  throw renderer::InputError(fmt::format(
-      "--counts {}: must read BSDF,LIGHT, two numbers up to {}, not both 0", text, kMaxCount));
-}
-
-int parse_roulette(const std::string& text) {
-  if (text == "off") return renderer::kNoRoulette;
-  int depth = 0;
-  const char* end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, depth);
-  if (parsed.ec == std::errc() && parsed.ptr == end && depth >= 1) return depth;
-  throw renderer::InputError(fmt::format("--roulette {}: must be a depth from 1 on, or off", text));
-}
 
 /// Options of one strategy that are given with another would be without effect.
 void require_strategy(const RenderArguments& arguments, renderer::Strategy strategy,
@@ -195,6 +149,7 @@ reports::RenderRecord make_record(const RenderArguments& arguments,
   if (uses_heuristic(arguments.strategy)) record.heuristic = describe(arguments.heuristic);
   record.sampler = name(arguments.sampler);
   record.replicates = options.replicates;
+  record.light_selection = name(arguments.light_selection);
   record.samples_per_pixel = result.samples_per_pixel;
   record.seconds = result.seconds;
   record.camera_rays = result.counters.camera_rays;
@@ -222,6 +177,7 @@ std::map<std::string, std::string> metadata(const reports::RenderRecord& record)
       {"seed", std::to_string(record.seed)},
       {"sampler", record.sampler},
       {"replicates", std::to_string(record.replicates)},
+      {"light_selection", record.light_selection},
       {"samples", std::to_string(record.samples_per_pixel)},
       {"seconds", fmt::format("{:.3f}", record.seconds)},
       {"max_depth", std::to_string(record.max_depth)},
@@ -247,9 +203,10 @@ void print_done(const std::string& output, const reports::RenderRecord& record) 
 int run_render(const RenderArguments& arguments) {
   const OutputFile output(arguments.output);
   const auto json = arguments.json.empty() ? nullptr : std::make_unique<OutputFile>(arguments.json);
-  const renderer::SceneDescription description =
+  renderer::SceneDescription description =
       load_scene(scene_path(arguments.scene), parse_definitions(arguments.definitions),
                  parse_size(arguments.size));
+  description.light_selection = arguments.light_selection;
   const renderer::Scene scene(description);
   renderer::RenderOptions options = render_options(arguments, description);
   print_found(arguments, description, scene, options);
@@ -269,32 +226,6 @@ int run_render(const RenderArguments& arguments) {
   }
   print_done(arguments.output, record);
   return kExitFine;
-}
-
-renderer::Strategy parse_strategy(const std::string& text) {
-  if (const auto strategy = renderer::strategy_from_name(text)) return *strategy;
-  throw renderer::InputError(
-      fmt::format("--strategy {}: there is no such strategy; {}", text,
-                  renderer::name_hint(text, names_of(renderer::kStrategies))));
-}
-
-renderer::Weighting parse_heuristic(const std::string& text) {
-  if (const auto weighting = renderer::weighting_from_text(text)) return *weighting;
-  const std::string heuristic = text.substr(0, text.find('='));
-  if (renderer::heuristic_from_name(heuristic)) {
-    throw renderer::InputError(fmt::format(
-        "--heuristic {}: only power=b with b > 0 and cutoff=a with a in [0, 1] have a parameter",
-        text));
-  }
-  throw renderer::InputError(
-      fmt::format("--heuristic {}: there is no such heuristic; {}", text,
-                  renderer::name_hint(heuristic, names_of(renderer::kHeuristics))));
-}
-
-renderer::SamplerType parse_sampler(const std::string& text) {
-  if (const auto sampler = renderer::sampler_from_name(text)) return *sampler;
-  throw renderer::InputError(fmt::format("--sampler {}: there is no such sampler; {}", text,
-                                         renderer::name_hint(text, names_of(renderer::kSamplers))));
 }
 
 void add_options(CLI::App& command, RenderArguments& arguments) {
@@ -334,6 +265,13 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
           "--sampler", [&](const std::string& text) { arguments.sampler = parse_sampler(text); },
           fmt::format("One of {}; independent without it",
                       fmt::join(names_of(renderer::kSamplers), ", ")))
+      ->type_name("NAME");
+  command
+      .add_option_function<std::string>(
+          "--light-selection",
+          [&](const std::string& text) { arguments.light_selection = parse_light_selection(text); },
+          fmt::format("How one of the lights is chosen, one of {}; uniform without it",
+                      fmt::join(names_of(renderer::kLightSelections), ", ")))
       ->type_name("NAME");
   command
       .add_option("--replicates", arguments.replicates,

@@ -118,6 +118,7 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("heuristic", r.heuristic);
   visit("sampler", r.sampler);
   visit("replicates", r.replicates);
+  visit("light_selection", r.light_selection);
   visit("spp", r.samples_per_pixel);
   visit("seconds", r.seconds);
   visit("camera_rays", r.camera_rays);

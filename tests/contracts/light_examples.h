@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -15,6 +16,11 @@ struct LightExample {
   std::string name;  ///< "SphereLight/near"
   renderer::Light light;
   renderer::Vec3f reference;
+
+  /// Whether the density jumps inside of its support. No cubature certifies its integral then; the
+  /// Jacobian and the pointwise checks hold all the same, and the parts are added up in closed
+  /// form.
+  bool jumps = false;
 };
 
 /// Lights worth checking of one alternative of `renderer::Light`. The type list drives the tests:
@@ -49,6 +55,13 @@ struct LightExamples<renderer::SphereLight> {
   }
 };
 
+/// The same light, sampled by solid angle.
+template <class L>
+L by_solid_angle(L light) {
+  light.by_solid_angle = true;
+  return light;
+}
+
 template <>
 struct LightExamples<renderer::RectangleLight> {
   static NamedLights all() {
@@ -59,7 +72,13 @@ struct LightExamples<renderer::RectangleLight> {
     return {{"RectangleLight/ceiling", ceiling, {0.3f, 0.2f, 0}},
             {"RectangleLight/from the side", ceiling, {4, 1, 1.5f}},
             {"RectangleLight/from behind", ceiling, {0, 0, 3}},
-            {"RectangleLight/large", large, {0, 0, 0}}};
+            {"RectangleLight/large", large, {0, 0, 0}},
+            {"RectangleLight/by solid angle, overhead", by_solid_angle(ceiling), {0.3f, 0.2f, 0}},
+            {"RectangleLight/by solid angle, from the side", by_solid_angle(ceiling), {4, 1, 1.5f}},
+            {"RectangleLight/by solid angle, from behind", by_solid_angle(ceiling), {0, 0, 3}},
+            {"RectangleLight/by solid angle, near", by_solid_angle(large), {-1, 2.999f, 1}},
+            // Too small for a solid angle: the same light falls back to its area.
+            {"RectangleLight/by solid angle, far", by_solid_angle(ceiling), {0, 0, -2046}}};
   }
 };
 
@@ -77,12 +96,14 @@ template <>
 struct LightExamples<renderer::TriangleLight> {
   static NamedLights all() {
     using renderer::TriangleLight;
-    return {{"TriangleLight/overhead",
-             TriangleLight{{-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, {0, 0, -1}, kRadiance},
-             {0, 0, 0}},
-            {"TriangleLight/thin",
-             TriangleLight{{-1, 0, 1}, {0, 0.2f, 0}, {5, 0, 0}, {0, 0, -1}, kRadiance},
-             {0.3f, 0.1f, 0}}};
+    const TriangleLight overhead{{-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, {0, 0, -1}, kRadiance};
+    const TriangleLight thin{{-1, 0, 1}, {0, 0.2f, 0}, {5, 0, 0}, {0, 0, -1}, kRadiance};
+    return {{"TriangleLight/overhead", overhead, {0, 0, 0}},
+            {"TriangleLight/thin", thin, {0.3f, 0.1f, 0}},
+            {"TriangleLight/by solid angle, overhead", by_solid_angle(overhead), {0, 0, 0}},
+            {"TriangleLight/by solid angle, from the side", by_solid_angle(overhead), {-2, -3, 1}},
+            {"TriangleLight/by solid angle, from behind", by_solid_angle(overhead), {0, 0, 2.5f}},
+            {"TriangleLight/by solid angle, far", by_solid_angle(overhead), {0, 0, -2046}}};
   }
 };
 
@@ -90,6 +111,63 @@ template <>
 struct LightExamples<renderer::ConstantEnvironment> {
   static NamedLights all() {
     return {{"ConstantEnvironment", renderer::ConstantEnvironment{kRadiance}, {1, 2, 3}}};
+  }
+};
+
+/// A small map, brighter in the north, with one bright pixel in the south; `compensation`, as in
+/// renderer::EnvironmentTable, leaves the others there out.
+inline std::shared_ptr<const renderer::EnvironmentTable> small_map(bool compensation) {
+  std::vector<renderer::Rgbf> pixels;
+  for (int i = 0; i < 8 * 5; ++i) {
+    const float grey = i == 13 ? 20.0f : static_cast<float>(i < 8 ? 8 + i * 5 % 8 : 1 + i % 2);
+    pixels.push_back(grey * kRadiance);
+  }
+  return std::make_shared<renderer::EnvironmentTable>(8, 5, std::move(pixels), compensation);
+}
+
+template <>
+struct LightExamples<renderer::EnvironmentMap> {
+  static NamedLights all() {
+    using renderer::EnvironmentMap, renderer::EnvironmentTable;
+    const float s = std::sqrt(0.5f);
+    const auto flat = [](const renderer::Rgbf& radiance, bool compensation) {
+      return EnvironmentMap{std::make_shared<EnvironmentTable>(
+          3, 2, std::vector<renderer::Rgbf>(6, radiance), compensation)};
+    };
+    const renderer::Vec3f origin{0, 0, 0};
+    return {
+        {"EnvironmentMap/as it stands", EnvironmentMap{small_map(false)}, origin, true},
+        {"EnvironmentMap/turned and scaled",
+         EnvironmentMap{small_map(false), {{{s, 0, s}, {0, 1, 0}, {-s, 0, s}}}, 2}, origin, true},
+        {"EnvironmentMap/compensated", EnvironmentMap{small_map(true)}, origin, true},
+        {"EnvironmentMap/constant", flat(kRadiance, false), origin},
+        {"EnvironmentMap/constant, compensated", flat(kRadiance, true), origin},
+        {"EnvironmentMap/black", flat({0, 0, 0}, false), origin},
+        {"EnvironmentMap/one pixel",
+         EnvironmentMap{std::make_shared<EnvironmentTable>(
+             1, 1, std::vector<renderer::Rgbf>(1, kRadiance), false)},
+         origin}};
+  }
+};
+
+template <>
+struct LightExamples<renderer::SunAndSky> {
+  static NamedLights all() {
+    using renderer::SunAndSky;
+    const renderer::Vec3f high = renderer::normalize(renderer::Vec3f{0.2f, -0.3f, 0.9f});
+    constexpr float kSmall = 1.1e-5f;  // of the sun in the sky
+    const renderer::Vec3f origin{0, 0, 0};
+    return {{"SunAndSky/sun with sky", SunAndSky{high, kSmall, kRadiance * 1e4f, kRadiance}, origin,
+             true},
+            {"SunAndSky/sun alone", SunAndSky{high, kSmall, kRadiance, {0, 0, 0}}, origin},
+            {"SunAndSky/half of the sky", SunAndSky{high, 1, kRadiance, kRadiance}, origin}};
+  }
+};
+
+template <>
+struct LightExamples<renderer::PointLight> {
+  static NamedLights all() {
+    return {{"PointLight", renderer::PointLight{{1, -2, 3}, kRadiance}, {0.5f, 0, 0}}};
   }
 };
 

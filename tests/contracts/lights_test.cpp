@@ -3,9 +3,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
 
+#include <plumbline/renderer/sampling/pcg32.h>
 #include <plumbline/verify/contract.h>
 #include <plumbline/verify/jacobian_autodiff.h>
+#include <plumbline/verify/mean_check.h>
 
 #include "light_examples.h"
 
@@ -32,6 +38,7 @@ SamplingPair light_pair(const LightExample& example) {
     verify::PairSample result;
     result.x = verify::to_vec3(s->wi);
     result.pdf = static_cast<double>(s->pdf_w);
+    result.mass = static_cast<double>(s->mass);
     return result;
   };
   pair.pdf = [=](const verify::Vec3& wi) {
@@ -47,7 +54,10 @@ TEST_P(Lights, KeepTheContract) {
   const SamplingPair pair = light_pair<double>(GetParam());
   verify::ContractOptions options;
   options.seed = check_seed(pair.name);
-  for (const verify::CheckResult& r : check_pair(pair, options)) expect_verdict(r);
+  for (const verify::CheckResult& r :
+       GetParam().jumps ? check_pointwise(pair, options) : check_pair(pair, options)) {
+    expect_verdict(r);
+  }
 }
 
 TEST_P(Lights, SampleTheirDensityInFloatAsRendered) {
@@ -56,7 +66,7 @@ TEST_P(Lights, SampleTheirDensityInFloatAsRendered) {
   verify::ContractOptions options;
   options.seed = check_seed(pair.name);
   for (const verify::CheckResult& r : check_pointwise(pair, options)) expect_verdict(r);
-  expect_verdict(check_chi_square(pair, options));
+  if (!GetParam().jumps) expect_verdict(check_chi_square(pair, options));
 }
 
 TEST_P(Lights, PdfIsTheInverseJacobianOfSample) {
@@ -65,7 +75,7 @@ TEST_P(Lights, PdfIsTheInverseJacobianOfSample) {
     using T = std::remove_cvref_t<decltype(u)>;
     auto s =
         renderer::sample(example.light, renderer::vec_cast<T>(example.reference), Vec2<T>{u, T(v)});
-    return s ? std::optional<Vec3<T>>(s->wi) : std::nullopt;
+    return s && !s->is_atom() ? std::optional<Vec3<T>>(s->wi) : std::nullopt;
   };
   const auto pdf = [&](const verify::Vec3& wi) {
     return renderer::pdf(example.light, renderer::vec_cast<double>(example.reference),
@@ -75,7 +85,7 @@ TEST_P(Lights, PdfIsTheInverseJacobianOfSample) {
   options.seed = check_seed(example.name);
   verify::CheckResult r = check_jacobian_autodiff("light/" + example.name, verify::Domain::sphere(),
                                                   sample, pdf, options);
-  // Seen from behind a light gives no sample, and has no Jacobian.
+  // Seen from behind a light gives no sample; an atom has no Jacobian.
   if (r.samples == 0) r.expected = verify::Verdict::inconclusive;
   expect_verdict(r);
 }
@@ -89,34 +99,182 @@ INSTANTIATE_TEST_SUITE_P(All, Lights, testing::ValuesIn(all_light_examples()),
                            return name;
                          });
 
-TEST(LightSelection, IsADiscretePairForAnyNumberOfLights) {
+/// 1 − cos of the cone that light `i` of many_lights is seen in.
+double one_minus_cos(std::uint32_t i) { return std::ldexp(1.0, -1 - static_cast<int>(i % 7)); }
+
+/// Lights of very different size and brightness that overlap in direction: seen from the origin
+/// all lie around the same axis, one behind the other.
+std::vector<renderer::Light> many_lights(std::uint32_t count) {
+  std::vector<renderer::Light> lights;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const float distance = 3 + 2 * static_cast<float>(i);
+    const auto h = static_cast<float>(one_minus_cos(i));
+    lights.emplace_back(renderer::SphereLight{{0, 0, distance},
+                                              distance * std::sqrt(h * (2 - h)),
+                                              false,
+                                              kRadiance * (0.5f + static_cast<float>(i % 11))});
+  }
+  return lights;
+}
+
+renderer::LightSet light_set(std::uint32_t count, renderer::LightSelection selection) {
+  std::vector<std::uint32_t> groups(count);
+  std::iota(groups.begin(), groups.end(), 0u);
+  return {many_lights(count), groups, selection, 1};
+}
+
+class LightSelection : public testing::TestWithParam<renderer::LightSelection> {};
+
+TEST_P(LightSelection, IsADiscretePairForAnyNumberOfLights) {
   for (const std::uint32_t count : {1u, 2u, 5u, 1000u}) {
-    const renderer::UniformLightSelection selection{count};
-    const std::string name = "light selection/" + std::to_string(count);
+    const renderer::LightSet lights = light_set(count, GetParam());
+    std::string name = "light selection/";
+    name.append(renderer::name(GetParam())).append("/").append(std::to_string(count));
     verify::ContractOptions options;
     options.seed = check_seed(name);
     const auto pair = verify::make_pair<int>(
         name, verify::Domain::discrete(count),
-        [=](float u) { return static_cast<int>(selection.sample(u).light); },
-        [=](int i) { return selection.pmf<float>(static_cast<std::uint32_t>(i)); });
+        [&](float u) { return static_cast<int>(lights.choose(u).index); },
+        [&](int i) { return lights.pmf<float>(static_cast<std::uint32_t>(i)); });
     for (const verify::CheckResult& r : check_pair(pair, options)) expect_verdict(r);
   }
 }
 
-TEST(LightSelection, LeavesAUniformNumberBehind) {
-  const renderer::UniformLightSelection selection{3};
+/// Solid angle of the cone of light `i`, as the mean of 1/pdf over samples that fall into it.
+///
+/// @param pdf  of a direction, 0 outside of every light
+template <class Pdf>
+void expect_solid_angle(const std::string& subject, const renderer::LightSet& lights,
+                        std::uint32_t i, const Pdf& pdf,
+                        verify::Verdict expected = verify::Verdict::pass) {
+  verify::MeanOptions options;
+  options.subject = subject;
+  const double h = one_minus_cos(i);
+  options.reference = 2 * renderer::pi<double>() * h;
+  options.tolerance = 0.01;
+  options.max_samples = 1 << 22;
+  options.expected = expected;
+  options.seed = check_seed(subject);
+  expect_verdict(check_mean(options, [&](std::uint64_t first, std::uint64_t count) {
+    verify::Moments moments;
+    verify::Random random(options.seed, first);
+    for (std::uint64_t n = 0; n < count; ++n) {
+      const auto s = lights.sample(Vec3<double>{}, random.uniform(),
+                                   Vec2<double>{random.uniform(), random.uniform()});
+      moments.add(s && 1 - s->wi.z <= h * (1 + 1e-6) ? 1 / pdf(s->wi) : 0.0);
+    }
+    return moments;
+  }));
+}
+
+/// The density of a direction is the sum over the lights that lie along it; what MIS asks for is
+/// the share of the one that is hit.
+TEST_P(LightSelection, DensityOfADirectionIsTheSumOverAllLights) {
+  for (const std::uint32_t count : {1u, 2u, 5u}) {
+    const renderer::LightSet lights = light_set(count, GetParam());
+    std::string subject = "overlapping lights/";
+    subject.append(renderer::name(GetParam())).append("/").append(std::to_string(count));
+    const auto sum = [&](const Vec3<double>& wi) {
+      double result = 0;
+      for (std::uint32_t i = 0; i < count; ++i) result += lights.pdf(i, Vec3<double>{}, wi);
+      return result;
+    };
+    const std::uint32_t narrowest = count - 1;
+    expect_solid_angle(subject + "/widest", lights, 0, sum);
+    expect_solid_angle(subject + "/narrowest", lights, narrowest, sum);
+    if (count == 1) continue;
+    const auto one_only = [&](const Vec3<double>& wi) {
+      return lights.pdf(narrowest, Vec3<double>{}, wi);
+    };
+    expect_solid_angle("control/" + subject + ", one light's density", lights, narrowest, one_only,
+                       verify::Verdict::fail);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LightSelection, testing::ValuesIn(renderer::kLightSelections),
+                         [](const auto& selection) {
+                           return std::string(renderer::name(selection.param));
+                         });
+
+TEST(DiscreteDistribution, IsADiscretePairAndLeavesAUniformNumberBehind) {
+  // One choice is ten million times less likely than another, one is impossible.
+  const std::vector<double> weights{3, 0, 1e-7, 1, 2};
+  const renderer::DiscreteDistribution distribution(weights);
+  EXPECT_EQ(distribution.pmf<float>(1), 0);
+  EXPECT_EQ(distribution.pmf<float>(2), 0x1p-24f);
+  EXPECT_EQ(distribution.pmf<float>(5), 0);
   verify::ContractOptions options;
-  options.seed = check_seed("light selection/rest");
-  auto pair = verify::make_pair<float>(
-      "light selection/rest", verify::Domain::interval(0, 1),
-      [=](float u) { return selection.sample(u).u; }, [](float) { return 1.0f; });
-  // Each light leads to every rest: three numbers for one point.
-  pair.many_to_one = true;
-  pair.preimages = [](const verify::Vec3& x) {
-    return std::vector<verify::Uniforms>{
-        {x[0] / 3, 0, 0}, {(1 + x[0]) / 3, 0, 0}, {(2 + x[0]) / 3, 0, 0}};
-  };
-  for (const verify::CheckResult& r : check_pair(pair, options)) expect_verdict(r);
+  options.seed = check_seed("discrete distribution");
+  const auto choice = verify::make_pair<int>(
+      "discrete distribution/choice", verify::Domain::discrete(5),
+      [&](float u) { return static_cast<int>(distribution.sample(u).index); },
+      [&](int i) { return distribution.pmf<float>(static_cast<std::uint32_t>(i)); });
+  for (const verify::CheckResult& r : check_pair(choice, options)) expect_verdict(r);
+
+  auto rest = verify::make_pair<float>(
+      "discrete distribution/rest", verify::Domain::interval(0, 1),
+      [&](float u) { return distribution.sample(u).u; }, [](float) { return 1.0f; });
+  rest.many_to_one = true;  // each choice leads to every rest
+  for (const verify::CheckResult& r : check_pair(rest, options)) expect_verdict(r);
+}
+
+TEST(DiscreteDistribution, ChoosesAsOftenAsItSays) {
+  // Counted over every number that the generator can return.
+  const std::vector<double> weights{1e-9, 5, 0, 1, 1e-3, 0};
+  const renderer::DiscreteDistribution distribution(weights);
+  std::vector<std::uint32_t> counts(weights.size());
+  for (std::uint32_t i = 0; i < 1u << 24; ++i) {
+    const auto choice = distribution.sample(renderer::to_unit(i << 8));
+    ++counts[choice.index];
+    ASSERT_TRUE(choice.u >= 0 && choice.u < 1);
+  }
+  for (std::uint32_t i = 0; i < counts.size(); ++i) {
+    EXPECT_EQ(static_cast<float>(counts[i]) * 0x1p-24f, distribution.pmf<float>(i)) << i;
+  }
+  // All black is no reason to choose none.
+  const renderer::DiscreteDistribution black(std::vector<double>{0, 0});
+  EXPECT_EQ(black.pmf<float>(0), 0.5f);
+}
+
+TEST(SunAndSky, DensitiesOfConeAndRestAddUpToOne) {
+  // 2π (1 − cosθ) of the cone and 2π (1 + cosθ) of the rest, to the last digit.
+  for (const float h : {0x1p-20f, 1e-5f, 0.25f, 1.0f}) {
+    const renderer::SunAndSky light{{0, 0, 1}, h, kRadiance, kRadiance};
+    const double in = light.pdf(renderer::Vec3d{}, renderer::Vec3d{0, 0, 1});
+    const double out = light.pdf(renderer::Vec3d{}, renderer::Vec3d{0, 0, -1});
+    const double cone = 2 * renderer::pi<double>() * static_cast<double>(h);
+    EXPECT_NEAR(in * cone, 0.5, 1e-15);
+    EXPECT_NEAR(out * (4 * renderer::pi<double>() - cone), 0.5, 1e-15);
+  }
+}
+
+TEST(EnvironmentMap, PixelsCoverTheSphereInAnyNumberOfRows) {
+  // The density of each pixel times its solid angle, 2π/width (cosθ_top − cosθ_bottom).
+  for (const int rows : {1, 2, 3, 5, 64}) {
+    constexpr int kColumns = 7;
+    std::vector<renderer::Rgbf> pixels;
+    for (int i = 0; i < kColumns * rows; ++i) {
+      pixels.push_back(kRadiance * static_cast<float>(1 + i * i % 13));
+    }
+    const renderer::EnvironmentMap map{
+        std::make_shared<renderer::EnvironmentTable>(kColumns, rows, pixels, false)};
+    double sum = 0;
+    for (int row = 0; row < rows; ++row) {
+      const double step = renderer::pi<double>() / rows;
+      const double solid_angle = 2 * renderer::pi<double>() / kColumns *
+                                 (std::cos(row * step) - std::cos((row + 1) * step));
+      for (int column = 0; column < kColumns; ++column) {
+        const double theta = (row + 0.5) * step;
+        const double phi = (column + 0.5) * 2 * renderer::pi<double>() / kColumns;
+        const renderer::Vec3d wi{std::sin(theta) * std::sin(phi), std::cos(theta),
+                                 -std::sin(theta) * std::cos(phi)};
+        sum += map.pdf(renderer::Vec3d{}, wi) * solid_angle;
+        EXPECT_EQ(map.radiance_along(renderer::vec_cast<float>(wi)).g,
+                  pixels[static_cast<std::size_t>(row * kColumns + column)].g);
+      }
+    }
+    EXPECT_NEAR(sum, 1, 1e-12) << rows;
+  }
 }
 
 TEST(Lights, TheBatteryFailsAreaInThePlaceOfItsInverse) {

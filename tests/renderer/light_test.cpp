@@ -18,7 +18,8 @@ std::vector<Light> one_of_each() {
           DiskLight{{0.3f, 0, 2.5f}, {0, 0, -1}, 0.8f, white},
           TriangleLight{
               {-1, 0, 2}, {2, 0.5f, 0}, {0.25f, 2, 1}, normalize(Vec3f{-0.5f, 2, -3.875f}), white},
-          ConstantEnvironment{white}};
+          ConstantEnvironment{white},
+          SunAndSky::make({0, 0, 1}, 0.1, white, white)};
 }
 
 TEST(LightSet, RecordedDensityIsTheOneThatAHitAsksFor) {
@@ -32,8 +33,9 @@ TEST(LightSet, RecordedDensityIsTheOneThatAHitAsksFor) {
     const Vec3<double> ref = vec_cast<double>(square_to_uniform_sphere(random.next_2d()));
     const Vec2<double> u{static_cast<double>(random.next_1d()),
                          static_cast<double>(random.next_1d())};
-    const auto light = std::min(static_cast<std::uint32_t>(u.x * 6), 5u);
-    const auto sample = lights.sample(ref, u);
+    const double u_light = static_cast<double>(random.next_1d());
+    const std::uint32_t light = lights.choose(u_light).index;
+    const auto sample = lights.sample(ref, u_light, u);
     if (!sample) continue;
     ASSERT_GT(sample->pdf_w, 0);
     const double pdf_w = lights.pdf(light, ref, sample->wi);
@@ -46,28 +48,12 @@ TEST(LightSet, RecordedDensityIsTheOneThatAHitAsksFor) {
 TEST(LightSet, NothingIsSampledFromBehindAOneSidedLight) {
   const Vec3<double> behind{0, 0, 10};
   for (const Light& light : one_of_each()) {
-    if (std::holds_alternative<ConstantEnvironment>(light) || light.index() == 0) continue;
+    if (std::holds_alternative<ConstantEnvironment>(light) ||
+        std::holds_alternative<SunAndSky>(light) || light.index() == 0) {
+      continue;
+    }
     EXPECT_FALSE(sample(light, behind, Vec2<double>{0.3, 0.6})) << light.index();
     EXPECT_EQ(pdf(light, behind, Vec3<double>{0, 0, -1}), 0) << light.index();
-  }
-}
-
-TEST(UniformLightSelection, EveryLightIsChosenForItsShareOfUAndTheRestIsUniformAgain) {
-  for (const std::uint32_t count : {1u, 2u, 5u, 1000u}) {
-    const UniformLightSelection selection{count};
-    for (std::uint32_t light = 0; light < count; ++light) {
-      const double low = light / static_cast<double>(count);
-      for (const double part : {0.001, 0.25, 0.999}) {
-        const auto choice = selection.sample(low + part / count);
-        EXPECT_EQ(choice.light, light);
-        EXPECT_NEAR(choice.u, part, 1e-9);
-        EXPECT_EQ(choice.pmf, selection.pmf<double>(light));
-      }
-    }
-    EXPECT_EQ(selection.pmf<double>(count), 0);
-    const auto last = selection.sample(1 - 0x1p-24f);
-    EXPECT_EQ(last.light, count - 1);
-    EXPECT_LT(last.u, 1.0f);
   }
 }
 

@@ -59,6 +59,7 @@ reports::RenderRecord sample_render() {
   render.seed = 18'446'744'073'709'551'614u;
   render.sampler = "sobol";
   render.replicates = 4;
+  render.light_selection = "power";
   render.version = "1.2.3";
   render.max_depth = 7;
   render.width = 192;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/renderer/render/exr.h>
+
 #include "scene_text.h"
 
 /// What the repository ships and what it documents is what the reader takes.
@@ -93,6 +95,7 @@ TEST(SceneFormatDocument, ExamplesAreTaken) {
   for (const std::string& example : examples) {
     const TemporaryDirectory directory;
     directory.write("bunny.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    renderer::write_exr(directory.path() / "sky.exr", {1, 1, {{1, 1, 1}}, {}, {}, {}});
     // An example is a whole file or a part of one.
     const bool whole = example.rfind("<scene", 0) == 0 || example.rfind("<?xml", 0) == 0;
     const auto file = directory.write(

@@ -55,7 +55,7 @@ TEST(RenderCommand, SobolImagesSayHowTheirNoiseIsKnown) {
   const Scratch scratch;
   ASSERT_EQ(run_plumbline(scratch.path(),
                           "render sphere_light -o out.exr --json out.json --sampler sobol --spp 64 "
-                          "--size 16x12")
+                          "--size 16x12 --light-selection power")
                 .exit_code,
             0);
   const renderer::Image image = renderer::read_exr(scratch.file("out.exr"));
@@ -66,6 +66,7 @@ TEST(RenderCommand, SobolImagesSayHowTheirNoiseIsKnown) {
   const reports::RenderRecord record = reports::read_render_record(scratch.file("out.json"));
   EXPECT_EQ(record.sampler, "sobol");
   EXPECT_EQ(record.replicates, 4u);
+  EXPECT_EQ(record.light_selection, "power");
 }
 
 TEST(RenderCommand, SaysAtTheStartWhatItFound) {

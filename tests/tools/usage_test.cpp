@@ -84,6 +84,8 @@ TEST(Misuse, HasExitCodeTwoAndAMessage) {
        "--heuristic geometric: there is no such heuristic; supported: balance, power"},
       {"render furnace_open -o x.exr --sampler sobel",
        R"(--sampler sobel: there is no such sampler; did you mean "sobol"?)"},
+      {"render furnace_open -o x.exr --light-selection brightness",
+       "--light-selection brightness: there is no such selection; supported: uniform, area, power"},
       {"render furnace_open -o x.exr --replicates 2", "--replicates belongs to --sampler sobol"},
       {"render furnace_open -o x.exr --sampler sobol --replicates 1 --error 0.1",
        "an error limit needs at least 2 replicates"},

@@ -128,7 +128,7 @@ class Path {
                 const std::optional<Arrival>& arrival) const {
     const std::uint32_t light = light_seen(hit, direction);
     if (light == kNoLight) return {};
-    const Rgbf radiance = renderer::radiance(scene_.lights()[light]);
+    const Rgbf radiance = renderer::radiance(scene_.lights()[light], direction);
     return arrival ? radiance * bsdf_weight(*arrival, light, direction) : radiance;
   }
 
@@ -165,7 +165,7 @@ class Path {
 
   /// Direct light by one point on a light.
   Rgbf light_estimate(const Vertex& vertex, const Techniques& t) {
-    const auto light = scene_.lights().sample(vertex.ref, random_.next_2d());
+    const auto light = sample_light(vertex.ref);
     if (!light) {
       ++counters_.rejected;
       return {};
@@ -173,9 +173,19 @@ class Path {
     const Vec3f wi = vertex.frame.to_local(light->wi);
     const Rgbf f = vertex.bsdf.eval(vertex.wo, wi);
     if (is_black(f) || !is_visible(vertex, *light)) return {};
+    if (light->is_atom()) {
+      // Nothing else can find it: no weight is shared.
+      const float w = options_.strategy == Strategy::average ? 0.5f : 1 / t.n_light;
+      return f * light->radiance * (std::abs(wi.z) * w / light->mass);
+    }
     const float pdf_bsdf = t.n_bsdf > 0 ? vertex.bsdf.pdf(vertex.wo, wi) : 0.0f;
     const float w = weight(t.n_light, light->pdf_w, t.n_bsdf, pdf_bsdf);
     return f * light->radiance * (std::abs(wi.z) * w / light->pdf_w);
+  }
+
+  std::optional<LightSample<float>> sample_light(const Vec3f& ref) {
+    const float u_light = scene_.lights().size() > 1 ? random_.next_1d() : 0.0f;
+    return scene_.lights().sample(ref, u_light, random_.next_2d());
   }
 
   bool is_visible(const Vertex& vertex, const LightSample<float>& light) {

@@ -1,5 +1,6 @@
 #include "geometry.h"
 
+#include <limits>
 #include <new>
 #include <string>
 
@@ -23,6 +24,9 @@ RTCRay embree_ray(const Ray& ray) {
   r.dir_x = ray.direction.x;
   r.dir_y = ray.direction.y;
   r.dir_z = ray.direction.z;
+  // Embree counts a hit at 0: a ray from a point that lies on its plane without rounding, as in the
+  // middle of a scene, needs no offset and must not meet that plane.
+  r.tnear = std::numeric_limits<float>::min();
   r.tfar = ray.t_max;
   r.mask = ~0u;
   return r;

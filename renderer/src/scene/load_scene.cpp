@@ -37,7 +37,7 @@ class SceneReader {
     for (const Element& child : root.children()) read_child(child);
     shapes_.resolve_references();
     if (!has_sensor_) root.fail("the scene has no <sensor>");
-    if (scene_.shapes.empty() && !scene_.environment) {
+    if (scene_.shapes.empty() && !scene_.environment && !scene_.environment_map && !scene_.sun) {
       root.fail("the scene has neither a <shape> nor an <emitter>");
     }
   }
@@ -69,7 +69,7 @@ class SceneReader {
     if (tag == "sensor") return read_the_sensor(element);
     if (tag == "bsdf") return read_shared_bsdf(element);
     if (tag == "shape") return shapes_.read(element);
-    if (tag == "emitter") return read_environment(element);
+    if (tag == "emitter") return read_scene_emitter(element, scene_);
     element.fail(fmt::format(
         "<scene> may not hold <{}>; {}", tag.substr(0, 60),
         name_hint(tag, {"default", "integrator", "sensor", "bsdf", "shape", "emitter"})));
@@ -106,11 +106,6 @@ class SceneReader {
       element.fail(fmt::format("{} needs an id, or no shape can refer to it", element.label()));
     }
     bsdfs_.read(element);
-  }
-
-  void read_environment(const Element& element) {
-    if (scene_.environment) element.fail("a scene has one constant <emitter> only");
-    scene_.environment = read_emitter(element, "constant");
   }
 
   SceneFile& file_;

@@ -123,6 +123,14 @@ Vec3d Properties::point(const std::string& name, const Vec3d& absent) {
   return parse_xyz(*element, 0);
 }
 
+Vec3d Properties::vector(const std::string& name) {
+  const Element* element = require("vector", name);
+  if (!element) return {};
+  element->allow_attributes({"name", "x", "y", "z", "value"});
+  element->allow_no_children();
+  return parse_xyz(*element, 0);
+}
+
 Affine Properties::transform(const std::string& name) {
   const Element* element = find("transform", name);
   if (!element) return {};

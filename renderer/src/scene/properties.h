@@ -30,6 +30,7 @@ class Properties {
   Rgbd rgb(const std::string& name);
   Rgbd rgb(const std::string& name, const Rgbd& absent);
   Vec3d point(const std::string& name, const Vec3d& absent);
+  Vec3d vector(const std::string& name);
   Affine transform(const std::string& name);  ///< identity where absent
 
   /// Tag of the property with that name: "float"; empty if there is none.

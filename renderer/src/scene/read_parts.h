@@ -27,8 +27,11 @@ std::string film_size_error(const FilmSize& size);
 /// <integrator>
 IntegratorDescription read_integrator(const Element& element);
 
-/// The radiance of an <emitter> of the one type that its place allows ("area" or "constant").
-Rgbd read_emitter(const Element& element, const std::string& type);
+/// The <emitter> of a shape whose geometry has been read.
+void read_area_emitter(const Element& element, ShapeDescription& shape);
+
+/// An <emitter> of the scene: constant, envmap, point or sun.
+void read_scene_emitter(const Element& element, SceneDescription& scene);
 
 /// Geometry of a shape of any type. Everything but geometry must have been taken from
 /// `properties`.

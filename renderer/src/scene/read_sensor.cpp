@@ -58,12 +58,6 @@ double horizontal_tangent(const std::string& axis, double tangent, double aspect
   return tangent;
 }
 
-/// Rotations, reflections and translations keep a camera a camera; scale and shear do not.
-bool is_rigid(const Affine& m) {
-  return perpendicular(m.x, m.y) && perpendicular(m.y, m.z) && perpendicular(m.z, m.x) &&
-         same_length({1, 0, 0}, m.x) && same_length({1, 0, 0}, m.y) && same_length({1, 0, 0}, m.z);
-}
-
 }  // namespace
 
 std::string film_size_error(const FilmSize& size) {

@@ -114,7 +114,7 @@ void ShapeReader::read(const Element& element) {
   if (type == "rectangle") shape.geometry = read_rectangle(properties);
   if (type == "disk") shape.geometry = read_disk(properties);
   if (type == "obj") shape.geometry = read_obj(properties, element.file());
-  if (emitter) shape.radiance = read_emitter(*emitter, "area");
+  if (emitter) read_area_emitter(*emitter, shape);
   if (bsdf) {
     shape.bsdf = bsdfs_.read(*bsdf);
   } else if (reference) {
@@ -129,22 +129,6 @@ void ShapeReader::resolve_references() {
   for (const Reference& reference : references_) {
     shapes_[reference.shape].bsdf = bsdfs_.resolve(reference.element, reference.id);
   }
-}
-
-Rgbd read_emitter(const Element& element, const std::string& type) {
-  constexpr double kMaxRadiance = 1e30;  // sums of it stay finite in single precision
-  element.allow_attributes({"type", "id", "name"});
-  element.type({type});
-  element.file().register_id(element);
-  Properties properties(element);
-  const Rgbd radiance = properties.rgb("radiance");
-  properties.finish();
-  for (const double channel : {radiance.r, radiance.g, radiance.b}) {
-    if (!(channel >= 0 && channel <= kMaxRadiance)) {
-      properties.fail("radiance", fmt::format("must lie between 0 and {:g}", kMaxRadiance));
-    }
-  }
-  return radiance;
 }
 
 }  // namespace plumbline::renderer

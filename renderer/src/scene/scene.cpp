@@ -23,7 +23,9 @@ struct Bounds {
     add(center + Vec3d{radius, radius, radius});
   }
 
-  Vec3d center() const { return low.x <= high.x ? (low + high) * 0.5 : Vec3d{}; }
+  bool empty() const { return !(low.x <= high.x); }
+  Vec3d center() const { return empty() ? Vec3d{} : (low + high) * 0.5; }
+  double radius() const { return empty() ? 0.0 : length(high - low) / 2; }
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -57,9 +59,28 @@ class SceneBuilder {
   void add(const ShapeDescription& shape) {
     shape_ = &shape;
     std::visit(*this, shape.geometry);
+    ++group_;
   }
 
-  std::vector<Light> take_lights() { return std::move(lights_); }
+  void add(const PointDescription& point) {
+    add_light(PointLight{local(point.position), rgb_cast<float>(point.intensity)});
+    ++group_;
+  }
+
+  /// @return index of the environment's light, or kNoLight
+  std::uint32_t add_environment(const SceneDescription& scene) {
+    const Rgbf sky = rgb_cast<float>(scene.environment.value_or(Rgbd{}));
+    if (scene.environment_map) return add_light(*scene.environment_map);
+    if (scene.sun) {
+      return add_light(SunAndSky::make(vec_cast<float>(scene.sun->direction), scene.sun->half_angle,
+                                       rgb_cast<float>(scene.sun->radiance), sky));
+    }
+    return scene.environment ? add_light(ConstantEnvironment{sky}) : kNoLight;
+  }
+
+  LightSet take_lights(LightSelection selection, double scene_radius) {
+    return {std::move(lights_), groups_, selection, scene_radius};
+  }
 
   void operator()(const SphereShape& s) {
     const Sphere sphere{local(s.center), static_cast<float>(s.radius)};
@@ -81,7 +102,9 @@ class SceneBuilder {
       const Vec3f o = geometry_.rectangle_corners[first];
       const Vec3f u = geometry_.rectangle_corners[first + 1] - o;
       const Vec3f v = geometry_.rectangle_corners[first + 3] - o;
-      return RectangleLight{o, u, v, facing(s.flip_normals) * normalize(cross(u, v)), radiance};
+      return RectangleLight{o,        u,
+                            v,        facing(s.flip_normals) * normalize(cross(u, v)),
+                            radiance, shape_->light_by_solid_angle};
     });
   }
 
@@ -105,8 +128,9 @@ class SceneBuilder {
         const Vec3f v0 = geometry_.mesh_vertices[moved[0]];
         const Vec3f e1 = geometry_.mesh_vertices[moved[1]] - v0;
         const Vec3f e2 = geometry_.mesh_vertices[moved[2]] - v0;
-        return TriangleLight{v0, e1, e2, facing(s.flip_normals) * normalize(cross(e1, e2)),
-                             radiance};
+        return TriangleLight{v0,       e1,
+                             e2,       facing(s.flip_normals) * normalize(cross(e1, e2)),
+                             radiance, shape_->light_by_solid_angle};
       });
     }
   }
@@ -120,16 +144,23 @@ class SceneBuilder {
   void add_primitive(GeometryId id, bool flip_normals, const MakeLight& make_light) {
     std::uint32_t light = kNoLight;
     if (shape_->radiance && !is_black(*shape_->radiance)) {
-      light = static_cast<std::uint32_t>(lights_.size());
-      lights_.emplace_back(make_light(rgb_cast<float>(*shape_->radiance)));
+      light = add_light(make_light(rgb_cast<float>(*shape_->radiance)));
     }
     geometry_.primitives[id].push_back({shape_->bsdf, light, facing(flip_normals)});
+  }
+
+  std::uint32_t add_light(const Light& light) {
+    lights_.push_back(light);
+    groups_.push_back(group_);
+    return static_cast<std::uint32_t>(lights_.size()) - 1;
   }
 
   SceneGeometry& geometry_;
   Vec3d center_;
   const ShapeDescription* shape_ = nullptr;
   std::vector<Light> lights_;
+  std::vector<std::uint32_t> groups_;  // number of the shape that each light belongs to
+  std::uint32_t group_ = 0;
 };
 
 }  // namespace
@@ -138,17 +169,14 @@ Scene::Scene(const SceneDescription& description)
     : geometry_(std::make_unique<SceneGeometry>()),
       bsdfs_(description.bsdfs),
       shape_count_(description.shapes.size()) {
-  const Vec3d center = bounds_of(description.shapes).center();
+  const Bounds bounds = bounds_of(description.shapes);
+  const Vec3d center = bounds.center();
   SceneBuilder builder(*geometry_, center);
   for (const ShapeDescription& shape : description.shapes) builder.add(shape);
+  for (const PointDescription& point : description.points) builder.add(point);
   geometry_->build();
-
-  std::vector<Light> lights = builder.take_lights();
-  if (description.environment) {
-    environment_ = static_cast<std::uint32_t>(lights.size());
-    lights.emplace_back(ConstantEnvironment{rgb_cast<float>(*description.environment)});
-  }
-  lights_ = LightSet(std::move(lights));
+  environment_ = builder.add_environment(description);
+  lights_ = builder.take_lights(description.light_selection, bounds.radius());
   camera_ = Camera(description.camera, center);
 }
 

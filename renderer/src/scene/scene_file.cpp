@@ -20,7 +20,7 @@ std::vector<std::string> supported_types(std::string_view tag) {
       {"bsdf",
        {"diffuse", "conductor", "roughconductor", "dielectric", "roughdielectric", "twosided",
         "blendbsdf", "clearcoat", "thinfilm", "phong"}},
-      {"emitter", {"area", "constant"}},
+      {"emitter", {"area", "constant", "envmap", "point", "sun"}},
       {"film", {"hdrfilm"}},
       {"integrator", {"path", "direct"}},
       {"rfilter", {"box"}},

@@ -120,4 +120,9 @@ bool same_length(const Vec3d& a, const Vec3d& b) {
   return std::abs(length(a) - length(b)) <= kShapeTolerance * length(a);
 }
 
+bool is_rigid(const Affine& m) {
+  return perpendicular(m.x, m.y) && perpendicular(m.y, m.z) && perpendicular(m.z, m.x) &&
+         same_length({1, 0, 0}, m.x) && same_length({1, 0, 0}, m.y) && same_length({1, 0, 0}, m.z);
+}
+
 }  // namespace plumbline::renderer

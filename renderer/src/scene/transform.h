@@ -35,4 +35,7 @@ bool perpendicular(const Vec3d& a, const Vec3d& b);
 /// Whether two vectors are equally long to kShapeTolerance.
 bool same_length(const Vec3d& a, const Vec3d& b);
 
+/// Whether a map only turns, mirrors and moves: no scale, no shear.
+bool is_rigid(const Affine& m);
+
 }  // namespace plumbline::renderer

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <type_traits>
 
 #include <plumbline/renderer/light/light_sample.h>
 #include <plumbline/renderer/sampling/warps.h>
@@ -25,7 +24,7 @@ struct DiskLight {
   /// @return     nullopt where ref lies behind
   template <class T>
   std::optional<LightSample<T>> sample(const Vec3<T>& ref, const Vec2<T>& u) const {
-    const Vec3<T> n = unit_normal<T>();
+    const Vec3<T> n = unit<T>(normal);
     const Vec2<T> d = square_to_uniform_disk(u);
     const Vec3<T> offset = Frame<T>(n).to_world({T(d.x * T(radius)), T(d.y * T(radius)), T(0)});
     return from_area_sample(vec_cast<T>(center) + offset - ref, n, T(T(1) / area<T>()),
@@ -35,22 +34,11 @@ struct DiskLight {
   /// @return pdf_w [1/sr] of `sample(ref, u)`; 0 where wi misses the front
   template <class T>
   T pdf(const Vec3<T>& ref, const Vec3<T>& wi) const {
-    const auto hit = hit_front_of_plane(ref, wi, vec_cast<T>(center), unit_normal<T>());
+    const auto hit = hit_front_of_plane(ref, wi, vec_cast<T>(center), unit<T>(normal));
     if (!hit) return T(0);
     const Vec3<T> p = ref + wi * hit->distance - vec_cast<T>(center);
     if (!(length_squared(p) <= sqr(T(radius)))) return T(0);
     return sqr(hit->distance) / (hit->cos_light * area<T>());
-  }
-
- private:
-  /// Stored in float the normal has unit length to 2⁻²⁴ only.
-  template <class T>
-  Vec3<T> unit_normal() const {
-    if constexpr (std::is_same_v<T, float>) {
-      return normal;
-    } else {
-      return normalize(vec_cast<T>(normal));
-    }
   }
 };
 

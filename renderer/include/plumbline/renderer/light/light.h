@@ -1,20 +1,22 @@
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <type_traits>
-#include <utility>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include <plumbline/renderer/light/constant_environment.h>
 #include <plumbline/renderer/light/disk_light.h>
+#include <plumbline/renderer/light/environment_map.h>
 #include <plumbline/renderer/light/light_sample.h>
+#include <plumbline/renderer/light/point_light.h>
 #include <plumbline/renderer/light/rectangle_light.h>
 #include <plumbline/renderer/light/sphere_light.h>
+#include <plumbline/renderer/light/sun_and_sky.h>
 #include <plumbline/renderer/light/triangle_light.h>
 
 namespace plumbline::renderer {
@@ -25,97 +27,120 @@ template <class L>
 concept LightModel = requires(const L& light, const Vec3<double>& v, const Vec2<double>& u) {
   { light.sample(v, u) } -> std::same_as<std::optional<LightSample<double>>>;
   { light.pdf(v, v) } -> std::same_as<double>;
-  { light.radiance } -> std::convertible_to<Rgbf>;
 };
 
-/// Every light of the renderer. The tests walk this list: an alternative without examples does not
-/// compile there (tests/contracts/light_examples.h).
-using Light =
-    std::variant<SphereLight, RectangleLight, DiskLight, TriangleLight, ConstantEnvironment>;
+/// Every light of the renderer.
+using Light = std::variant<SphereLight, RectangleLight, DiskLight, TriangleLight,
+                           ConstantEnvironment, EnvironmentMap, SunAndSky, PointLight>;
 
 static_assert(LightModel<SphereLight> && LightModel<RectangleLight> && LightModel<DiskLight> &&
-              LightModel<TriangleLight> && LightModel<ConstantEnvironment>);
+              LightModel<TriangleLight> && LightModel<ConstantEnvironment> &&
+              LightModel<EnvironmentMap> && LightModel<SunAndSky> && LightModel<PointLight>);
 
 template <class T>
 std::optional<LightSample<T>> sample(const Light& light, const Vec3<T>& ref, const Vec2<T>& u) {
   return std::visit([&](const auto& l) { return l.sample(ref, u); }, light);
 }
 
-/// @return pdf_w [1/sr] of `sample(light, ref, u)`
+/// @return pdf_w [1/sr] of `sample(light, ref, u)`; 0 for an atom
 template <class T>
 T pdf(const Light& light, const Vec3<T>& ref, const Vec3<T>& wi) {
   return std::visit([&](const auto& l) { return l.pdf(ref, wi); }, light);
 }
 
-inline Rgbf radiance(const Light& light) {
-  return std::visit([](const auto& l) { return l.radiance; }, light);
+/// What a ray in the direction `wi` that ends on the light's front finds there [W/(m² sr)]. No ray
+/// ends on a point light.
+inline Rgbf radiance(const Light& light, const Vec3f& wi) {
+  return std::visit(
+      [&](const auto& l) -> Rgbf {
+        if constexpr (requires { l.radiance_along(wi); }) {
+          return l.radiance_along(wi);
+        } else if constexpr (requires { l.radiance; }) {
+          return l.radiance;
+        } else {
+          return {};
+        }
+      },
+      light);
 }
 
-/// Uniform choice among N lights, as a discrete sampling pair.
-struct UniformLightSelection {
-  std::uint32_t count = 0;  ///< N ≥ 1
-
-  template <class T>
-  struct Choice {
-    std::uint32_t light;  ///< in [0, N)
-    T pmf;                ///< [1]
-    T u;                  ///< uniform in [0, 1) again, independent of the choice
-  };
-
-  /// @param u  in [0, 1): its integer part in units of 1/N chooses, the rest is rescaled and reused
-  template <class T>
-  Choice<T> sample(const T& u) const {
-    const T scaled = u * T(count);
-    const auto index = std::min(static_cast<std::uint32_t>(scaled), count - 1);
-    return {index, pmf<T>(index), std::min(T(scaled - T(index)), kOneMinusUlp<T>)};
-  }
-
-  /// @return probability [1] that `sample` chooses `light`
-  template <class T>
-  T pmf(std::uint32_t light) const {
-    return light < count ? T(T(1) / T(count)) : T(0);
-  }
-
- private:
-  template <class T>
-  static constexpr T kOneMinusUlp = T(1) - std::numeric_limits<T>::epsilon() / T(2);
+/// How one of the lights of a scene is chosen.
+enum class LightSelection {
+  uniform,  ///< every light alike
+  area,     ///< by surface; a light without any counts like the average of those that have one
+  power     ///< by emitted power; of an infinite light by what meets the scene's bounding sphere
 };
+
+inline constexpr std::array kLightSelections{LightSelection::uniform, LightSelection::area,
+                                             LightSelection::power};
+
+/// The name on the command line: "uniform", "area", "power".
+std::string_view name(LightSelection selection);
+
+/// @return nullopt for a name that no selection has
+std::optional<LightSelection> light_selection_from_name(std::string_view text);
 
 /// All lights of a scene with the way one of them is chosen.
 class LightSet {
  public:
   LightSet() = default;
-  explicit LightSet(std::vector<Light> lights)
-      : lights_(std::move(lights)), selection_{static_cast<std::uint32_t>(lights_.size())} {}
+
+  /// @param groups        which lights are one to the user (the triangles of a mesh): numbers from
+  ///                      0 on, one per light. A group is chosen as a whole, in it a light by area.
+  /// @param scene_radius  of a sphere around all surfaces [m]
+  LightSet(std::vector<Light> lights, const std::vector<std::uint32_t>& groups,
+           LightSelection selection, double scene_radius);
+
+  /// Each light a group of its own, chosen uniformly.
+  explicit LightSet(std::vector<Light> lights);
 
   bool empty() const { return lights_.empty(); }
   std::size_t size() const { return lights_.size(); }
   const Light& operator[](std::uint32_t i) const { return lights_[i]; }
 
-  /// Chooses a light, then a direction towards it. `pdf_w` of the result includes the choice.
-  /// @param u  in [0, 1)²
+  /// @param u  in [0, 1)
   template <class T>
-  std::optional<LightSample<T>> sample(const Vec3<T>& ref, const Vec2<T>& u) const {
+  DiscreteDistribution::Choice<T> choose(const T& u) const {
+    return selection_.sample(u);
+  }
+
+  /// Probability [1] that `choose` and `sample` choose a light.
+  template <class T>
+  T pmf(std::uint32_t light) const {
+    return selection_.pmf<T>(light);
+  }
+
+  /// Chooses a light, then a direction towards it. `pdf_w` or `mass` of the result includes the
+  /// choice.
+  /// @param u_light  in [0, 1), a number of its own: what a choice among 1,000 lights leaves of one
+  ///                 number is too coarse to aim with
+  /// @param u        in [0, 1)²
+  template <class T>
+  std::optional<LightSample<T>> sample(const Vec3<T>& ref, const T& u_light,
+                                       const Vec2<T>& u) const {
     if (empty()) return std::nullopt;
-    const auto choice = selection_.sample(u.x);
-    auto result = renderer::sample(lights_[choice.light], ref, Vec2<T>{choice.u, u.y});
-    if (result) result->pdf_w = result->pdf_w * choice.pmf;
+    const auto choice = choose(u_light);
+    auto result = renderer::sample(lights_[choice.index], ref, u);
+    if (!result) return std::nullopt;
+    result->pdf_w = result->pdf_w * choice.pmf;
+    result->mass = result->mass * choice.pmf;
     return result;
   }
 
-  /// Density with which `sample(ref, u)` produces the point of light `light` seen along wi: what
+  /// Density with which `sample(ref, …)` produces the point of light `light` seen along wi: what
   /// MIS needs at an emissive hit. Points of different lights are different points of path space,
-  /// so the other lights that may lie along the same direction do not enter.
+  /// so the other lights that may lie along the same direction do not enter; the density of the
+  /// direction alone is the sum over all lights.
   ///
   /// @return pdf_w [1/sr], selection included
   template <class T>
   T pdf(std::uint32_t light, const Vec3<T>& ref, const Vec3<T>& wi) const {
-    return selection_.pmf<T>(light) * renderer::pdf(lights_[light], ref, wi);
+    return pmf<T>(light) * renderer::pdf(lights_[light], ref, wi);
   }
 
  private:
   std::vector<Light> lights_;
-  UniformLightSelection selection_;
+  DiscreteDistribution selection_;
 };
 
 }  // namespace plumbline::renderer

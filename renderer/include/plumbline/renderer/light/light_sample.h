@@ -7,14 +7,20 @@
 
 namespace plumbline::renderer {
 
-/// One sampled direction towards a light.
+/// One sampled direction towards a light: a point of a density, or an atom with probability mass.
+/// Exactly one of `pdf_w` and `mass` is positive, so an atom that is taken for a density has none.
 template <class T>
 struct LightSample {
-  Vec3<T> wi;       ///< unit, world space, from the reference point towards the light
-  T distance;       ///< to the light [m]; infinity for an environment
-  T cos_light;      ///< cosine at the light between its normal and −wi, > 0
-  Rgb<T> radiance;  ///< emitted towards the reference point [W/(m² sr)]
-  T pdf_w;          ///< [1/sr] at the reference point, the same value as pdf(ref, wi)
+  Vec3<T> wi;   ///< unit, world space, from the reference point towards the light
+  T distance;   ///< to the light [m]; infinity for an environment
+  T cos_light;  ///< cosine at the light between its normal and −wi, > 0
+  /// Emitted towards the reference point [W/(m² sr)]; of an atom the irradiance of a surface at the
+  /// reference point that faces it [W/m²].
+  Rgb<T> radiance;
+  T pdf_w{0};  ///< [1/sr] at the reference point, the same value as pdf(ref, wi); 0 for an atom
+  T mass{0};   ///< [1] with which the atom was chosen; 0 for a density
+
+  bool is_atom() const { return mass > T(0); }
 };
 
 /// Turns a point sampled by area on a flat or curved one-sided emitter into a direction sample:
@@ -37,6 +43,17 @@ std::optional<LightSample<T>> from_area_sample(const Vec3<T>& to_light, const Ve
   return LightSample<T>{wi, distance, cos_light, radiance, T(pdf_a * distance_squared / cos_light)};
 }
 
+/// A unit vector stored in float, of unit length in the precision of T: in float it has it to 2⁻²⁴
+/// only, which is right for rendering.
+template <class T>
+Vec3<T> unit(const Vec3f& v) {
+  if constexpr (std::is_same_v<T, float>) {
+    return v;
+  } else {
+    return normalize(vec_cast<T>(v));
+  }
+}
+
 /// The stored unit normal in the precision of T. Stored in float it is perpendicular to the edges
 /// to 2⁻²⁴ only, which is right for rendering; in other scalars it is made anew from the edges, so
 /// that the light is one consistent shape to the last digit.
@@ -49,6 +66,10 @@ Vec3<T> plane_normal(const Vec3f& normal, const Vec3f& edge_1, const Vec3f& edge
     return dot(n, vec_cast<T>(normal)) > T(0) ? n : -n;
   }
 }
+
+/// Below this a light that is sampled by solid angle is sampled by area instead, which is as good:
+/// so small a light hardly varies over its surface. The formulas keep six digits down to here.
+inline constexpr double kSmallestSolidAngle = 1e-6;
 
 /// Where the ray ref + t·wi meets the front of a plane.
 template <class T>

@@ -3,14 +3,17 @@
 #include <optional>
 
 #include <plumbline/renderer/light/light_sample.h>
+#include <plumbline/renderer/light/spherical_rectangle.h>
 
 namespace plumbline::renderer {
 
-/// One-sided rectangle origin + s·edge_u + t·edge_v, sampled uniformly by area.
+/// One-sided rectangle origin + s·edge_u + t·edge_v, sampled uniformly by area, or by the solid
+/// angle that it subtends.
 struct RectangleLight {
   Vec3f origin, edge_u, edge_v;  ///< perpendicular edges [m]
   Vec3f normal;                  ///< unit, emitting side
   Rgbf radiance;
+  bool by_solid_angle = false;
 
   template <class T>
   T area() const {
@@ -22,6 +25,11 @@ struct RectangleLight {
   /// @return     nullopt where ref lies behind
   template <class T>
   std::optional<LightSample<T>> sample(const Vec3<T>& ref, const Vec2<T>& u) const {
+    if (by_solid_angle) {
+      const SphericalRectangle<Wide<T>> seen = seen_from(ref);
+      if (!(seen.height() > Wide<T>(0))) return std::nullopt;
+      if (large_enough(seen)) return sample_solid_angle(seen, u);
+    }
     const Vec3<T> point =
         vec_cast<T>(origin) + vec_cast<T>(edge_u) * u.x + vec_cast<T>(edge_v) * u.y;
     return from_area_sample(point - ref, plane_normal<T>(normal, edge_u, edge_v),
@@ -38,7 +46,37 @@ struct RectangleLight {
     const Vec3<T> eu = vec_cast<T>(edge_u), ev = vec_cast<T>(edge_v);
     const T s = dot(p, eu), t = dot(p, ev);
     if (!(s >= T(0) && s <= dot(eu, eu) && t >= T(0) && t <= dot(ev, ev))) return T(0);
+    if (by_solid_angle) {
+      const SphericalRectangle<Wide<T>> seen = seen_from(ref);
+      if (large_enough(seen)) return static_cast<T>(Wide<T>(1) / seen.solid_angle());
+    }
     return sqr(hit->distance) / (hit->cos_light * area<T>());
+  }
+
+ private:
+  template <class T>
+  SphericalRectangle<Wide<T>> seen_from(const Vec3<T>& ref) const {
+    using W = Wide<T>;
+    return {vec_cast<W>(origin) - vec_cast<W>(ref), vec_cast<W>(edge_u), vec_cast<W>(edge_v),
+            plane_normal<W>(normal, edge_u, edge_v)};
+  }
+
+  template <class W>
+  static bool large_enough(const SphericalRectangle<W>& seen) {
+    return seen.solid_angle() >= W(kSmallestSolidAngle);
+  }
+
+  template <class T>
+  LightSample<T> sample_solid_angle(const SphericalRectangle<Wide<T>>& seen,
+                                    const Vec2<T>& u) const {
+    using W = Wide<T>;
+    const Vec3<W> to_light = seen.sample({static_cast<W>(u.x), static_cast<W>(u.y)});
+    const W distance = length(to_light);
+    return {.wi = vec_cast<T>(to_light / distance),
+            .distance = static_cast<T>(distance),
+            .cos_light = static_cast<T>(seen.height() / distance),
+            .radiance = rgb_cast<T>(radiance),
+            .pdf_w = static_cast<T>(W(1) / seen.solid_angle())};
   }
 };
 

@@ -15,6 +15,11 @@ struct SphereLight {
   bool inward;   ///< normals, and so emission, point to the centre
   Rgbf radiance;
 
+  template <class T>
+  T area() const {
+    return T(4) * pi<T>() * sqr(T(radius));
+  }
+
   /// @param ref  reference point, world space
   /// @param u    in [0, 1)²
   /// @return     nullopt where ref is inside a sphere that emits outwards, or a sample sees no
@@ -89,11 +94,6 @@ struct SphereLight {
                                                                    : T(0);
   }
 
-  template <class T>
-  T pdf_a() const {
-    return T(1) / (T(4) * pi<T>() * sqr(T(radius)));
-  }
-
   // A reference point on the sphere itself (a closed furnace) may lie outside by a rounding error,
   // so none is refused for its side: from outside the far wall is sampled, and the near one shadows
   // it.
@@ -101,7 +101,7 @@ struct SphereLight {
   std::optional<LightSample<T>> sample_from_inside(const Vec3<T>& ref, const Vec2<T>& u) const {
     const Vec3<T> n = square_to_uniform_sphere(u);
     const Vec3<T> point = vec_cast<T>(center) + n * T(radius);
-    return from_area_sample(point - ref, -n, pdf_a<T>(), rgb_cast<T>(radiance));
+    return from_area_sample(point - ref, -n, T(T(1) / area<T>()), rgb_cast<T>(radiance));
   }
 
   template <class T>
@@ -111,7 +111,7 @@ struct SphereLight {
     const T half_chord = safe_sqrt(T(sqr(T(radius)) - length_squared(cross(m, wi))));
     const T distance = half_chord - dot(m, wi);
     if (!(half_chord > T(0) && distance > T(0))) return T(0);
-    return pdf_a<T>() * sqr(distance) * T(radius) / half_chord;
+    return sqr(distance) * T(radius) / (half_chord * area<T>());
   }
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <plumbline/renderer/bsdf/bsdf.h>
+#include <plumbline/renderer/light/light.h>
 #include <plumbline/renderer/math.h>
 
 /// What a scene file says, in double and in world space: the parser's output and the input of
@@ -55,8 +56,9 @@ struct MeshShape {
 
 struct ShapeDescription {
   std::variant<SphereShape, RectangleShape, DiskShape, MeshShape> geometry;
-  std::uint32_t bsdf = 0;        ///< index into SceneDescription::bsdfs
-  std::optional<Rgbd> radiance;  ///< one-sided emission from the front side [W/(m² sr)]
+  std::uint32_t bsdf = 0;             ///< index into SceneDescription::bsdfs
+  std::optional<Rgbd> radiance;       ///< one-sided emission from the front side [W/(m² sr)]
+  bool light_by_solid_angle = false;  ///< how a rectangle's or mesh's emission is sampled
 };
 
 /// Pinhole camera as in Mitsuba 3: looks along +z of its own frame, +y up, +x to the *left* of the
@@ -66,6 +68,19 @@ struct CameraDescription {
   Vec3d left, up, forward;    ///< unit, world space
   double tan_half_fov_x = 1;  ///< of the horizontal field of view
   int width = 256, height = 256;
+};
+
+/// A light without surface, alike in all directions.
+struct PointDescription {
+  Vec3d position;
+  Rgbd intensity;  ///< [W/sr]
+};
+
+/// A disk of light infinitely far away, on top of the constant environment.
+struct SunDescription {
+  Vec3d direction;        ///< unit, towards its centre
+  double half_angle = 0;  ///< [rad], in (0, π/2]
+  Rgbd radiance;          ///< [W/(m² sr)]
 };
 
 struct FilmSize {
@@ -88,6 +103,10 @@ struct SceneDescription {
   std::vector<ShapeDescription> shapes;
   std::vector<Bsdf> bsdfs;
   std::optional<Rgbd> environment;  ///< constant environment radiance [W/(m² sr)]
+  std::optional<SunDescription> sun;
+  std::optional<EnvironmentMap> environment_map;  ///< excludes the two above
+  std::vector<PointDescription> points;
+  LightSelection light_selection = LightSelection::uniform;
 };
 
 }  // namespace plumbline::renderer
