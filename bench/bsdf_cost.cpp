@@ -78,8 +78,7 @@ void add(const std::string& name, const B& bsdf) {
     benchmark::DoNotOptimize(bsdf.sample(wo, u));
   };
   const auto eval_pdf = [bsdf](const Vec3f& wo, const Vec3f& wi, const Vec2f&) {
-    benchmark::DoNotOptimize(bsdf.eval(wo, wi));
-    benchmark::DoNotOptimize(bsdf.pdf(wo, wi));
+    benchmark::DoNotOptimize(bsdf.evaluate(wo, wi));
   };
   add_one("sample", sample);
   add_one("eval_pdf", eval_pdf);

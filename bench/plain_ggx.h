@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include <plumbline/renderer/math.h>
+#include <plumbline/renderer/bsdf/bsdf_sample.h>
 
 namespace plumbline::bench {
 
@@ -44,6 +44,10 @@ struct PlainGgx {
     if (!(wo.z > 0 && wi.z > 0)) return 0;
     const renderer::Vec3f h = normalize(wo + wi);
     return masking(wo) * distribution(h) / (4 * wo.z);
+  }
+
+  renderer::BsdfValue<float> evaluate(const renderer::Vec3f& wo, const renderer::Vec3f& wi) const {
+    return {eval(wo, wi), pdf(wo, wi)};
   }
 
   /// @source Heitz 2018 (JCGT 7:4), Listing 1

@@ -69,6 +69,19 @@ TYPED_TEST(Edge, WhatIsAllAtomsHasNoDensityAnywhere) {
   }
 }
 
+TYPED_TEST(Edge, EvaluateIsEvalAndPdf) {
+  verify::Random random(3);
+  for (const Example& example : examples_of<TypeParam>()) {
+    for (const Vec3f& wo : hard_outgoing(random)) {
+      for (const Vec3f& wi : hard_incoming(example.bsdf, wo, 16, random)) {
+        const BsdfValue<float> both = example.bsdf.evaluate(wo, wi);
+        EXPECT_EQ(both.f, example.bsdf.eval(wo, wi)) << example.name;
+        EXPECT_EQ(both.pdf_w, example.bsdf.pdf(wo, wi)) << example.name;
+      }
+    }
+  }
+}
+
 TEST(DarkHalo, MetalWithoutLossStaysBrightToTheHorizon) {
   // Single scattering keeps at least half of the power at any angle for α ≤ 0.1.
   const GgxConductor metal{{0.1f, 0.1f}, {}};

@@ -171,16 +171,15 @@ class Path {
       return {};
     }
     const Vec3f wi = vertex.frame.to_local(light->wi);
-    const Rgbf f = vertex.bsdf.eval(vertex.wo, wi);
-    if (is_black(f) || !is_visible(vertex, *light)) return {};
+    const BsdfValue<float> bsdf = vertex.bsdf.evaluate(vertex.wo, wi);
+    if (is_black(bsdf.f) || !is_visible(vertex, *light)) return {};
     if (light->is_atom()) {
       // Nothing else can find it: no weight is shared.
       const float w = options_.strategy == Strategy::average ? 0.5f : 1 / t.n_light;
-      return f * light->radiance * (std::abs(wi.z) * w / light->mass);
+      return bsdf.f * light->radiance * (std::abs(wi.z) * w / light->mass);
     }
-    const float pdf_bsdf = t.n_bsdf > 0 ? vertex.bsdf.pdf(vertex.wo, wi) : 0.0f;
-    const float w = weight(t.n_light, light->pdf_w, t.n_bsdf, pdf_bsdf);
-    return f * light->radiance * (std::abs(wi.z) * w / light->pdf_w);
+    const float w = weight(t.n_light, light->pdf_w, t.n_bsdf, t.n_bsdf > 0 ? bsdf.pdf_w : 0.0f);
+    return bsdf.f * light->radiance * (std::abs(wi.z) * w / light->pdf_w);
   }
 
   std::optional<LightSample<float>> sample_light(const Vec3f& ref) {

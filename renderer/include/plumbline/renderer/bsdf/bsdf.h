@@ -60,6 +60,17 @@ class BsdfSet {
   }
 
   template <class T>
+  BsdfValue<T> evaluate(std::uint32_t i, const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return call<BsdfValue<T>>(i, [&](const auto& b, const auto&... set) {
+      if constexpr (requires { b.evaluate(set..., wo, wi); }) {
+        return b.evaluate(set..., wo, wi);
+      } else {
+        return BsdfValue<T>{b.eval(set..., wo, wi), b.pdf(set..., wo, wi)};
+      }
+    });
+  }
+
+  template <class T>
   std::optional<BsdfSample<T>> sample(std::uint32_t i, const Vec3<T>& wo, const Vec2<T>& u) const {
     return call<std::optional<BsdfSample<T>>>(
         i, [&](const auto& b, const auto&... set) { return b.sample(set..., wo, u); });
@@ -170,6 +181,12 @@ class BsdfRef {
   template <class T>
   T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
     return set_->pdf(index_, wo, wi);
+  }
+
+  /// @return eval(wo, wi) and pdf(wo, wi) at the cost of little more than one of them
+  template <class T>
+  BsdfValue<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return set_->evaluate(index_, wo, wi);
   }
 
   /// A BSDF is a mixture of lobes: with probability P_k(wo) it samples lobe k, so that

@@ -20,6 +20,14 @@ struct BsdfSample {
   bool is_atom() const { return mass > T(0); }
 };
 
+/// A BSDF at a pair of directions. Both numbers lean on the same half vector, so asked together
+/// they cost little more than one of them.
+template <class T>
+struct BsdfValue {
+  Rgb<T> f;    ///< [1/sr], as `eval` gives it
+  T pdf_w{0};  ///< [1/sr], as `pdf` gives it
+};
+
 /// What a BSDF is made of, whatever the directions.
 struct BsdfParts {
   bool density = false;       ///< eval and pdf are positive somewhere

@@ -43,9 +43,17 @@ class ClearCoat {
   /// @return        f [1/sr], without the cosine; 0 unless both are above the horizon
   template <class T>
   Rgb<T> eval(const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return evaluate(wo, wi).f;
+  }
+
+  template <class T>
+  BsdfValue<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi) const {
     if (!(wo.z > T(0) && wi.z > T(0))) return {};
-    const T share = (T(1) - coat_albedo(wo.z)) * (T(1) - coat_albedo(wi.z)) / T(mean_let_in_);
-    return coat_.eval_with(reflectance_, wo, wi) + base_.eval(wo, wi) * share;
+    const T albedo = coat_albedo(wo.z), coat_share = coat_probability(albedo);
+    const T share = (T(1) - albedo) * (T(1) - coat_albedo(wi.z)) / T(mean_let_in_);
+    const BsdfValue<T> coat = coat_.evaluate_with(reflectance_, wo, wi);
+    return {coat.f + base_.eval(wo, wi) * share,
+            coat_share * coat.pdf_w + (T(1) - coat_share) * base_.pdf(wo, wi)};
   }
 
   /// @param u  in [0, 1)²; u.x chooses the lobe and is then rescaled
@@ -55,28 +63,25 @@ class ClearCoat {
     const auto choice = choose_lobe(u.x, lobe_probability(wo, 0));
     auto result = sample_lobe(wo, choice.lobe, Vec2<T>{choice.u, u.y});
     if (!result) return std::nullopt;
-    result->pdf_w = pdf(wo, result->wi);
-    result->weight = eval(wo, result->wi) * T(result->wi.z / result->pdf_w);
+    const BsdfValue<T> both = evaluate(wo, result->wi);
+    result->pdf_w = both.pdf_w;
+    result->weight = both.f * T(result->wi.z / both.pdf_w);
     return result;
   }
 
   /// @return pdf_w [1/sr] of `sample(wo, u)`: both lobes
   template <class T>
   T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
-    if (!(wo.z > T(0))) return T(0);
-    const T coat = lobe_probability(wo, 0);
-    return coat * coat_.pdf(wo, wi) + (T(1) - coat) * base_.pdf(wo, wi);
+    return evaluate(wo, wi).pdf_w;
   }
 
   /// Lobe 0 is the coat, lobe 1 the base.
   static constexpr std::uint32_t lobe_count() { return 2; }
 
-  /// By the light that each gives back.
   template <class T>
   T lobe_probability(const Vec3<T>& wo, std::uint32_t lobe) const {
-    const T coat = coat_albedo(wo.z);
-    const T base = (T(1) - coat) * mean(rgb_cast<T>(base_.albedo));
-    return (lobe == 0 ? coat : base) / (coat + base);
+    const T coat = coat_probability(coat_albedo(wo.z));
+    return lobe == 0 ? coat : T(T(1) - coat);
   }
 
   template <class T>
@@ -107,6 +112,12 @@ class ClearCoat {
       return to_rgb(interface.template split<T>(static_cast<Wide<T>>(cosine), true).reflected);
     }
   };
+
+  /// Probability of the coat, by the light that each lobe gives back.
+  template <class T>
+  T coat_probability(const T& coat_albedo) const {
+    return coat_albedo / (coat_albedo + (T(1) - coat_albedo) * mean(rgb_cast<T>(base_.albedo)));
+  }
 
   /// E at a cosine, between nodes that are equally spaced in its root: E is steep at grazing.
   template <class T>

@@ -23,12 +23,12 @@ struct Ggx {
   }
 
   /// @return D [1/sr] of the normal along H
-  /// @source Heitz 2014, Eq. 85, with numerator and denominator multiplied by |H|⁴
+  /// @source Heitz 2014, Eq. 85, with numerator and denominator multiplied by (αx αy |H|²)²
   template <class T>
   T density(const Vec3<T>& normal) const {
-    const T ax = T(alpha_x), ay = T(alpha_y);
-    const T stretched = sqr(T(normal.x / ax)) + sqr(T(normal.y / ay)) + sqr(normal.z);
-    return sqr(T(length_squared(normal) / stretched)) / (pi<T>() * ax * ay);
+    const T ax = T(alpha_x), ay = T(alpha_y), area = ax * ay;
+    const T stretched = sqr(T(ay * normal.x)) + sqr(T(ax * normal.y)) + sqr(T(area * normal.z));
+    return sqr(T(area * length_squared(normal) / stretched)) * area * (T(1) / pi<T>());
   }
 
   /// @param w  unit
@@ -56,7 +56,7 @@ struct Ggx {
     using std::sqrt;
     const T ax = T(alpha_x), ay = T(alpha_y);
     const T stretch = stretched_length(wo);
-    const Vec3<T> w{T(ax * wo.x / stretch), T(ay * wo.y / stretch), T(wo.z / stretch)};
+    const Vec3<T> w = Vec3<T>{T(ax * wo.x), T(ay * wo.y), wo.z} * T(T(1) / stretch);
     // The cap z > −w.z of the unit sphere: z = 1 − t, and 1 + z = 2 − t is written so that neither
     // it nor the sum with w.z cancels at the rim, u.y → 1.
     const T rim = (T(1) + w.z) * (T(1) - u.y);
@@ -71,9 +71,12 @@ struct Ggx {
 };
 
 /// Mirrors wo at the normal along H: 2 (wo·H)/|H|² H − wo.
+///
+/// By the scalar product, which keeps wi a unit vector where it is nearly 0; `n.cosine` keeps its
+/// sign there, and trusts wo to be a unit vector to the last digit.
 template <class T>
 Vec3<T> reflect(const Vec3<T>& wo, const Ggx::VisibleNormal<T>& n) {
-  return n.normal * T(T(2) * n.cosine / length_squared(n.normal)) - wo;
+  return n.normal * T(T(2) * dot(wo, n.normal) / length_squared(n.normal)) - wo;
 }
 
 /// Mirrors a direction at the surface.

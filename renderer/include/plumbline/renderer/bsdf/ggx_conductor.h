@@ -23,7 +23,12 @@ struct GgxConductor {
   /// @return        f [1/sr], without the cosine; 0 unless both are above the horizon
   template <class T>
   Rgb<T> eval(const Vec3<T>& wo, const Vec3<T>& wi) const {
-    return eval_with(fresnel, wo, wi);
+    return evaluate(wo, wi).f;
+  }
+
+  template <class T>
+  BsdfValue<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return evaluate_with(fresnel, wo, wi);
   }
 
   /// @param u  in [0, 1)²
@@ -44,17 +49,18 @@ struct GgxConductor {
 
   /// The same under another reflectance, a function of the cosine: what a film makes of it.
   ///
-  /// @source Walter et al. 2007, Eq. 20: F D G/(4 cosθo cosθi), where Smith's G1/cosθ = 2/(cosθ +
-  ///         S) takes both cosines out, so that nothing is divided by a cosine near 0
+  /// @source Walter et al. 2007, Eq. 20: f = F D G/(4 cosθo cosθi) = F G1(wi)/cosθi pdf_w, where
+  ///         Smith's G1/cosθ = 2/(cosθ + S) takes the cosine out, so that nothing is divided by one
+  ///         near 0
   template <class T, class Reflectance>
-  Rgb<T> eval_with(const Reflectance& reflectance, const Vec3<T>& wo, const Vec3<T>& wi) const {
+  BsdfValue<T> evaluate_with(const Reflectance& reflectance, const Vec3<T>& wo,
+                             const Vec3<T>& wi) const {
     using std::sqrt;
     if (!(wo.z > T(0) && wi.z > T(0))) return {};
-    const Vec3<T> h = wo + wi;
     // wo·h = |wo + wi|/2 for unit vectors; the scalar product would cancel where wi → −wo.
-    const T cosine = std::min(T(sqrt(length_squared(h)) / T(2)), T(1));
-    return reflectance(cosine) * T(ggx.density(h) / ((wo.z + ggx.stretched_length(wo)) *
-                                                     (wi.z + ggx.stretched_length(wi))));
+    const T cosine = std::min(T(sqrt(length_squared(wo + wi)) / T(2)), T(1));
+    const T pdf_w = pdf(wo, wi);
+    return {reflectance(cosine) * T(T(2) * pdf_w / (wi.z + ggx.stretched_length(wi))), pdf_w};
   }
 
   template <class T, class Reflectance>

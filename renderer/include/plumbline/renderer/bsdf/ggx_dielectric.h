@@ -24,7 +24,12 @@ struct GgxDielectric {
   /// @return        f [1/sr], without the cosine, for radiance
   template <class T>
   Rgb<T> eval(const Vec3<T>& wo, const Vec3<T>& wi) const {
-    return eval_with(interface, wo, wi);
+    return evaluate(wo, wi).f;
+  }
+
+  template <class T>
+  BsdfValue<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return evaluate_with(interface, wo, wi);
   }
 
   /// @param u  in [0, 1)²; u.x chooses the lobe and is then rescaled
@@ -65,25 +70,24 @@ struct GgxDielectric {
   T pdf_lobe(const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) const {
     const auto half = half_vector(wo, wi);
     if (!half || half->refracts != (lobe == 1)) return T(0);
-    const Vec3<T> up = upright(wo, wo);
-    const T visible = ggx.density(half->normal) / (up.z + ggx.stretched_length(up));
-    if (lobe == 0) return visible / T(2);
-    return T(2) * visible * half->cos_o * half->cos_i * half->inverse_square;
+    return density(*half, upright(wo, wo));
   }
 
   /// The same at another interface of the same index: what a film makes of it.
   ///
-  /// @source Walter et al. 2007, Eqs. 20 and 21 (o the side of wo), where G1/cosθ = 2/(cosθ + S)
-  ///         takes both cosines out
+  /// @source Walter et al. 2007, Eqs. 20 and 21 (o the side of wo): f = F G1(wi)/cosθi pdf_w of the
+  ///         lobe, or (1 − F)/η² instead of F, where G1/cosθ = 2/(cosθ + S) takes the cosine out
   template <class T, class Interface>
-  Rgb<T> eval_with(const Interface& film, const Vec3<T>& wo, const Vec3<T>& wi) const {
+  BsdfValue<T> evaluate_with(const Interface& film, const Vec3<T>& wo, const Vec3<T>& wi) const {
     const auto half = half_vector(wo, wi);
     if (!half) return {};
-    const Vec3<T> o = upright(wo, wo), i = upright(wi, wi);
-    const T common = ggx.density(half->normal) /
-                     ((o.z + ggx.stretched_length(o)) * (i.z + ggx.stretched_length(i)));
+    const T lobe_pdf = density(*half, upright(wo, wo));
+    const T pdf_w = lobe_probability(wo, half->refracts ? 1 : 0) * lobe_pdf;
+    const Vec3<T> i = upright(wi, wi);
+    const T common = T(2) * lobe_pdf / (i.z + ggx.stretched_length(i));
     if (!half->refracts) {
-      return to_rgb(film.template split<T>(half->wide_cos_o, wo.z > T(0)).reflected) * common;
+      const auto power = film.template split<T>(half->wide_cos_o, wo.z > T(0));
+      return {to_rgb(power.reflected) * common, pdf_w};
     }
     // Both sides give the same share; the thinner one has no critical angle to lose digits at.
     const bool thin_outside = interface.eta > 1;
@@ -91,8 +95,7 @@ struct GgxDielectric {
     const auto power =
         film.template split<T>(from_thin ? half->wide_cos_o : half->wide_cos_i, thin_outside);
     const T eta = static_cast<T>(relative_index<T>(interface.eta, wo.z > T(0)));
-    return to_rgb(power.transmitted) *
-           T(T(4) * common * half->cos_o * half->cos_i * half->inverse_square / sqr(eta));
+    return {to_rgb(power.transmitted) * T(common / sqr(eta)), pdf_w};
   }
 
   template <class T, class Interface>
@@ -161,6 +164,14 @@ struct GgxDielectric {
     Wide<T> wide_cos_o, wide_cos_i;
     T inverse_square;  // of η: η²/|wo + η wi|², refraction only
   };
+
+  /// pdf_w of the lobe that the half vector belongs to, wo made upright.
+  template <class T>
+  T density(const HalfVector<T>& half, const Vec3<T>& up) const {
+    const T visible = ggx.density(half.normal) / (up.z + ggx.stretched_length(up));
+    if (!half.refracts) return visible / T(2);
+    return T(2) * visible * half.cos_o * half.cos_i * half.inverse_square;
+  }
 
   /// The normal that takes wo to wi. Wide, because η wi rounded to float would move a normal at
   /// α = 1e-4 by a thousandth of its lobe.

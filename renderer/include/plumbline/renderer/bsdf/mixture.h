@@ -25,6 +25,12 @@ struct Mixture {
     return set.eval(first, wo, wi) * share<T>(0) + set.eval(second, wo, wi) * share<T>(1);
   }
 
+  template <class Set, class T>
+  BsdfValue<T> evaluate(const Set& set, const Vec3<T>& wo, const Vec3<T>& wi) const {
+    const BsdfValue<T> a = set.evaluate(first, wo, wi), b = set.evaluate(second, wo, wi);
+    return {a.f * share<T>(0) + b.f * share<T>(1), a.pdf_w * share<T>(0) + b.pdf_w * share<T>(1)};
+  }
+
   /// @param u  in [0, 1)²; u.x chooses and is then rescaled
   template <class Set, class T>
   std::optional<BsdfSample<T>> sample(const Set& set, const Vec3<T>& wo, const Vec2<T>& u) const {
@@ -95,9 +101,10 @@ struct Mixture {
   std::optional<BsdfSample<T>> with_density_of_both(const Set& set, const Vec3<T>& wo,
                                                     BsdfSample<T> sample) const {
     using std::abs;
-    sample.pdf_w = pdf(set, wo, sample.wi);
-    if (!(sample.pdf_w > T(0))) return std::nullopt;
-    sample.weight = eval(set, wo, sample.wi) * T(abs(sample.wi.z) / sample.pdf_w);
+    const BsdfValue<T> both = evaluate(set, wo, sample.wi);
+    if (!(both.pdf_w > T(0))) return std::nullopt;
+    sample.pdf_w = both.pdf_w;
+    sample.weight = both.f * T(abs(sample.wi.z) / both.pdf_w);
     return sample;
   }
 };

@@ -25,8 +25,14 @@ struct ModifiedPhong {
   /// @return        f [1/sr], without the cosine; 0 unless both are above the horizon
   template <class T>
   Rgb<T> eval(const Vec3<T>& wo, const Vec3<T>& wi) const {
-    if (!(wo.z > T(0) && wi.z > T(0))) return {};
-    return rgb_cast<T>(reflectance) * T((T(exponent) + T(2)) / (T(2) * pi<T>()) * lobe(wo, wi));
+    return evaluate(wo, wi).f;
+  }
+
+  template <class T>
+  BsdfValue<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi) const {
+    const T pdf_w = pdf(wo, wi);
+    return {rgb_cast<T>(reflectance) * T((T(exponent) + T(2)) / (T(exponent) + T(1)) * pdf_w),
+            pdf_w};
   }
 
   /// @param u  in [0, 1)²

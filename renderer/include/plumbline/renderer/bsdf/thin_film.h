@@ -26,11 +26,16 @@ struct ThinFilm {
   /// @return        f [1/sr], without the cosine, for radiance
   template <class T>
   Rgb<T> eval(const Vec3<T>& wo, const Vec3<T>& wi) const {
-    return visit<Rgb<T>>([&](const auto& b) {
-      if constexpr (requires { b.eval_with(coated(b), wo, wi); }) {
-        return b.eval_with(coated(b), wo, wi);
+    return evaluate(wo, wi).f;
+  }
+
+  template <class T>
+  BsdfValue<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return visit<BsdfValue<T>>([&](const auto& b) {
+      if constexpr (requires { b.evaluate_with(coated(b), wo, wi); }) {
+        return b.evaluate_with(coated(b), wo, wi);
       } else {
-        return b.eval(wo, wi);  // atoms do not show
+        return BsdfValue<T>{};  // atoms do not show
       }
     });
   }

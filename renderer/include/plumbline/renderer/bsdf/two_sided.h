@@ -26,6 +26,11 @@ struct TwoSided {
   }
 
   template <class Set, class T>
+  BsdfValue<T> evaluate(const Set& set, const Vec3<T>& wo, const Vec3<T>& wi) const {
+    return set.evaluate(side(wo), to_front(wo, wo), to_front(wo, wi));
+  }
+
+  template <class Set, class T>
   std::optional<BsdfSample<T>> sample(const Set& set, const Vec3<T>& wo, const Vec2<T>& u) const {
     return from_front(wo, set.sample(side(wo), to_front(wo, wo), u));
   }
