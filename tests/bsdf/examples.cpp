@@ -31,10 +31,10 @@ double eta_of(const BsdfSet& set, std::uint32_t index) {
     if constexpr (requires { bsdf.interface.eta; }) {
       return double{bsdf.interface.eta};
     } else if constexpr (requires {
-                           bsdf.base;
-                           bsdf.film;
+                           bsdf.base();
+                           bsdf.film();
                          }) {
-      return std::visit([&](const auto& base) { return self(self, base); }, bsdf.base);
+      return std::visit([&](const auto& base) { return self(self, base); }, bsdf.base());
     } else if constexpr (requires { bsdf.children(); }) {
       // Both children of a mixture have the same medium behind them.
       return eta_of(set, bsdf.children()[0]);

@@ -55,8 +55,8 @@ struct KnownAlbedo {
   }
 
   double operator()(const ThinFilm& b) const {
-    const KnownAlbedo under_film{set, wo, channel, &b.film};
-    return std::visit([&](const auto& base) { return under_film(base); }, b.base);
+    const KnownAlbedo under_film{set, wo, channel, &b.film()};
+    return std::visit([&](const auto& base) { return under_film(base); }, b.base());
   }
 
   double operator()(const TwoSided& b) const {
@@ -107,7 +107,7 @@ struct KnownAlbedo {
   }
 
   analytic::Share on_metal(const ConductorFresnel& fresnel) const {
-    return reflectance(1, {channel_of(fresnel.eta), channel_of(fresnel.k)});
+    return reflectance(1, {channel_of(fresnel.eta()), channel_of(fresnel.k())});
   }
 
   analytic::Share on_glass(double eta) const {

@@ -26,24 +26,24 @@ const std::string kGgx = R"(<string name="distribution" value="ggx"/>)";
 constexpr double kAir = 1.000277;
 
 TEST(SceneBsdf, ConductorsAreLosslessUnlessAMaterialOrIndicesAreGiven) {
-  EXPECT_EQ(read<SmoothConductor>("conductor").fresnel.eta, (Rgbf{0, 0, 0}));
-  EXPECT_EQ(read<SmoothConductor>("conductor").fresnel.k, (Rgbf{1, 1, 1}));
+  EXPECT_EQ(read<SmoothConductor>("conductor").fresnel.eta(), (Rgbf{0, 0, 0}));
+  EXPECT_EQ(read<SmoothConductor>("conductor").fresnel.k(), (Rgbf{1, 1, 1}));
   const auto gold =
       read<SmoothConductor>("conductor", R"(<string name="material" value="Au"/>)").fresnel;
-  EXPECT_EQ(gold.eta, (Rgbf{0.143119f, 0.374957f, 1.44248f}));
-  EXPECT_EQ(gold.k, (Rgbf{3.98316f, 2.38572f, 1.60322f}));
+  EXPECT_EQ(gold.eta(), (Rgbf{0.143119f, 0.374957f, 1.44248f}));
+  EXPECT_EQ(gold.k(), (Rgbf{3.98316f, 2.38572f, 1.60322f}));
   const auto stated = read<SmoothConductor>("conductor", R"(<rgb name="eta" value="0.2, 0.9, 1.1"/>
                                           <rgb name="k" value="3.9, 2.4, 2.1"/>)")
                           .fresnel;
-  EXPECT_EQ(stated.eta, (Rgbf{0.2f, 0.9f, 1.1f}));
-  EXPECT_EQ(stated.k, (Rgbf{3.9f, 2.4f, 2.1f}));
+  EXPECT_EQ(stated.eta(), (Rgbf{0.2f, 0.9f, 1.1f}));
+  EXPECT_EQ(stated.k(), (Rgbf{3.9f, 2.4f, 2.1f}));
 }
 
 TEST(SceneBsdf, RoughnessHasMitsubasDefaultAndTwoAxes) {
   const auto isotropic = read<GgxConductor>("roughconductor", kGgx);
   EXPECT_EQ(isotropic.ggx.alpha_x, 0.1f);
   EXPECT_EQ(isotropic.ggx.alpha_y, 0.1f);
-  EXPECT_EQ(isotropic.fresnel.k, (Rgbf{1, 1, 1}));
+  EXPECT_EQ(isotropic.fresnel.k(), (Rgbf{1, 1, 1}));
   EXPECT_EQ(read<GgxConductor>("roughconductor", kGgx + R"(<float name="alpha" value="0.3"/>)")
                 .ggx.alpha_y,
             0.3f);
@@ -52,7 +52,7 @@ TEST(SceneBsdf, RoughnessHasMitsubasDefaultAndTwoAxes) {
       kGgx + R"(<float name="alpha_v" value="0.5"/><string name="material" value="Cu"/>)");
   EXPECT_EQ(anisotropic.ggx.alpha_x, 0.1f);
   EXPECT_EQ(anisotropic.ggx.alpha_y, 0.5f);
-  EXPECT_EQ(anisotropic.fresnel.eta, (Rgbf{0.200438f, 0.924033f, 1.10221f}));
+  EXPECT_EQ(anisotropic.fresnel.eta(), (Rgbf{0.200438f, 0.924033f, 1.10221f}));
 }
 
 TEST(SceneBsdf, DielectricsTakeIndicesAsNumbersAndAsNames) {
@@ -81,15 +81,15 @@ TEST(SceneBsdf, PhongClearCoatAndThinFilmAreOurOwn) {
   EXPECT_EQ(read<ClearCoat>("clearcoat").eta(), static_cast<float>(1.49 / kAir));
   const auto on_metal = read<ThinFilm>(
       "thinfilm", R"(<float name="thickness" value="300"/><bsdf type="conductor"/>)");
-  EXPECT_TRUE(std::holds_alternative<SmoothConductor>(on_metal.base));
-  EXPECT_EQ(on_metal.film.thickness, 300);
-  EXPECT_EQ(on_metal.film.eta, 1.333f);
+  EXPECT_TRUE(std::holds_alternative<SmoothConductor>(on_metal.base()));
+  EXPECT_EQ(on_metal.film().thickness, 300);
+  EXPECT_EQ(on_metal.film().eta, 1.333f);
   // Under water both are relative to the water's index, 1.333.
   const auto on_glass = read<ThinFilm>(
       "thinfilm", R"(<float name="thickness" value="100"/><float name="film_ior" value="1.9995"/>
       <bsdf type="dielectric"><string name="ext_ior" value="water"/></bsdf>)");
-  EXPECT_FLOAT_EQ(on_glass.film.eta, 1.5f);
-  EXPECT_FLOAT_EQ(on_glass.film.thickness, 133.3f);
+  EXPECT_FLOAT_EQ(on_glass.film().eta, 1.5f);
+  EXPECT_FLOAT_EQ(on_glass.film().thickness, 133.3f);
 }
 
 TEST(SceneBsdf, NestedOnesAreIndicesIntoTheSet) {

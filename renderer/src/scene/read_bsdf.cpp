@@ -85,7 +85,7 @@ ConductorFresnel read_metal(Properties& properties) {
   const std::string material = properties.string("material", "none");
   const ConductorFresnel metal{read_metal_index(properties, "eta", 0),
                                read_metal_index(properties, "k", 1)};
-  const Rgbf sum = metal.eta + metal.k;  // near 0 a denominator of Fresnel's equations vanishes
+  const Rgbf sum = metal.eta() + metal.k();  // near 0 a denominator of Fresnel's equations vanishes
   if (!(std::min({sum.r, sum.g, sum.b}) >= 0.01f)) {
     properties.fail("eta", "η and k must not both be 0: their sum is at least 0.01");
   }

@@ -82,7 +82,7 @@ struct SinCos {
 /// @param u  in [0, 1]
 /// @source   coefficients of Cephes (Moshier), sinf.c; absolute error below 1.2e-7
 template <class T>
-SinCos<T> sin_cos_turns(const T& u) {
+[[gnu::always_inline]] inline SinCos<T> sin_cos_turns(const T& u) {
   if constexpr (std::is_same_v<T, float>) {
     // Rounding by truncation is right for u ≥ 0. NOLINTNEXTLINE(bugprone-incorrect-roundings)
     const int quarter = static_cast<int>(4.0f * u + 0.5f);

@@ -116,25 +116,40 @@ struct FilmView {
 }  // namespace film_detail
 
 /// In the place of ConductorFresnel.
-struct FilmOnConductor {
-  FilmLayer film;
-  ConductorFresnel base;
+class FilmOnConductor {
+ public:
+  FilmOnConductor(const FilmLayer& film, const ConductorFresnel& base)
+      : film_(film), eta_(base.eta()), k_(base.k()) {
+    table_ = ReflectanceTable([this](double c) { return by_formula(c); });
+  }
 
   /// @param cos_o  in [0, 1]
   template <class T>
   Rgb<T> operator()(const T& cos_o) const {
+    if constexpr (std::is_same_v<T, float>) {
+      if (!table_.empty()) return table_(cos_o);
+    }
+    return by_formula(cos_o);
+  }
+
+ private:
+  template <class T>
+  Rgb<T> by_formula(const T& cos_o) const {
     const auto film_cosine =
-        refracted_cosine(static_cast<Wide<T>>(cos_o), static_cast<Wide<T>>(film.eta));
+        refracted_cosine(static_cast<Wide<T>>(cos_o), static_cast<Wide<T>>(film_.eta));
     if (!(film_cosine > Wide<T>(0))) return {T(1), T(1), T(1)};
-    const film_detail::FilmView<T> view(film, cos_o, static_cast<T>(film_cosine));
+    const film_detail::FilmView<T> view(film_, cos_o, static_cast<T>(film_cosine));
     const auto reflected = [&](float eta, float k, std::size_t channel) {
       const T n = T(eta), m = T(k);
       return T(T(1) - view.transmittance({T((n - m) * (n + m)), T(T(2) * n * m)},
                                          refracted_cosine(cos_o, n, m), channel));
     };
-    return {reflected(base.eta.r, base.k.r, 0), reflected(base.eta.g, base.k.g, 1),
-            reflected(base.eta.b, base.k.b, 2)};
+    return {reflected(eta_.r, k_.r, 0), reflected(eta_.g, k_.g, 1), reflected(eta_.b, k_.b, 2)};
   }
+
+  FilmLayer film_;
+  Rgbf eta_, k_;
+  ReflectanceTable table_;
 };
 
 /// In the place of BareInterface.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <plumbline/renderer/bsdf/reflectance_table.h>
 #include <plumbline/renderer/math.h>
 
 /// Fresnel's equations for unpolarised light, written without differences that cancel.
@@ -115,18 +116,39 @@ T fresnel_conductor(const T& cos_o, const T& eta, const T& k) {
 
 /// Reflectance of a conductor per channel. The default is a mirror without loss, as Mitsuba's
 /// `material` "none".
-struct ConductorFresnel {
-  Rgbf eta{0, 0, 0};  ///< index relative to the outside: η + ik
-  Rgbf k{1, 1, 1};
+class ConductorFresnel {
+ public:
+  ConductorFresnel() = default;
+
+  /// @param eta, k  per channel, η + ik the index relative to the outside; η = 0 in all channels
+  ///                reflects everything at every angle, for no light can enter
+  ConductorFresnel(const Rgbf& eta, const Rgbf& k) : eta_(eta), k_(k) {
+    if (!is_black(eta)) table_ = ReflectanceTable([this](double c) { return by_formula(c); });
+  }
+
+  const Rgbf& eta() const { return eta_; }
+  const Rgbf& k() const { return k_; }
 
   /// @param cos_o  in [0, 1]
   template <class T>
   Rgb<T> operator()(const T& cos_o) const {
-    // η = 0 reflects everything at every angle: no light can enter, and nothing is to compute.
-    if (eta == Rgbf{0, 0, 0}) return {T(1), T(1), T(1)};
-    return {fresnel_conductor(cos_o, T(eta.r), T(k.r)), fresnel_conductor(cos_o, T(eta.g), T(k.g)),
-            fresnel_conductor(cos_o, T(eta.b), T(k.b))};
+    if constexpr (std::is_same_v<T, float>) {
+      if (!table_.empty()) return table_(cos_o);
+    }
+    if (is_black(eta_)) return {T(1), T(1), T(1)};
+    return by_formula(cos_o);
   }
+
+ private:
+  template <class T>
+  Rgb<T> by_formula(const T& cos_o) const {
+    return {fresnel_conductor(cos_o, T(eta_.r), T(k_.r)),
+            fresnel_conductor(cos_o, T(eta_.g), T(k_.g)),
+            fresnel_conductor(cos_o, T(eta_.b), T(k_.b))};
+  }
+
+  Rgbf eta_{0, 0, 0}, k_{1, 1, 1};
+  ReflectanceTable table_;
 };
 
 }  // namespace plumbline::renderer

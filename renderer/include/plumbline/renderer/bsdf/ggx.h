@@ -17,7 +17,7 @@ struct Ggx {
   ///
   /// @source Heitz 2014 (JCGT 3:2), Eq. 86
   template <class T>
-  T stretched_length(const Vec3<T>& w) const {
+  [[gnu::always_inline]] T stretched_length(const Vec3<T>& w) const {
     using std::sqrt;
     return sqrt(sqr(T(T(alpha_x) * w.x)) + sqr(T(T(alpha_y) * w.y)) + sqr(w.z));
   }
@@ -25,7 +25,7 @@ struct Ggx {
   /// @return D [1/sr] of the normal along H
   /// @source Heitz 2014, Eq. 85, with numerator and denominator multiplied by (αx αy |H|²)²
   template <class T>
-  T density(const Vec3<T>& normal) const {
+  [[gnu::always_inline]] T density(const Vec3<T>& normal) const {
     const T ax = T(alpha_x), ay = T(alpha_y), area = ax * ay;
     const T stretched = sqr(T(ay * normal.x)) + sqr(T(ax * normal.y)) + sqr(T(area * normal.z));
     return sqr(T(area * length_squared(normal) / stretched)) * area * (T(1) / pi<T>());
@@ -52,7 +52,8 @@ struct Ggx {
   /// @param u   in [0, 1)²
   /// @source    Dupuy, Benyoub 2023, "Sampling visible GGX normals with spherical caps", Listing 3
   template <class T>
-  VisibleNormal<T> sample_visible(const Vec3<T>& wo, const Vec2<T>& u) const {
+  [[gnu::always_inline]] VisibleNormal<T> sample_visible(const Vec3<T>& wo,
+                                                         const Vec2<T>& u) const {
     using std::sqrt;
     const T ax = T(alpha_x), ay = T(alpha_y);
     const T stretch = stretched_length(wo);
@@ -75,7 +76,7 @@ struct Ggx {
 /// By the scalar product, which keeps wi a unit vector where it is nearly 0; `n.cosine` keeps its
 /// sign there, and trusts wo to be a unit vector to the last digit.
 template <class T>
-Vec3<T> reflect(const Vec3<T>& wo, const Ggx::VisibleNormal<T>& n) {
+[[gnu::always_inline]] inline Vec3<T> reflect(const Vec3<T>& wo, const Ggx::VisibleNormal<T>& n) {
   return n.normal * T(T(2) * dot(wo, n.normal) / length_squared(n.normal)) - wo;
 }
 

@@ -42,7 +42,7 @@ struct GgxConductor {
   /// @source Heitz 2018 (JCGT 7:4), Eq. 3, with the half-vector Jacobian 1/(4 wo·h) of Walter et
   ///         al. 2007, Eq. 14: G1 (wo·h) D/cosθo /(4 wo·h), where G1/cosθo = 2/(cosθo + S)
   template <class T>
-  T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
+  [[gnu::always_inline]] T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
     if (!(wo.z > T(0) && wi.z > T(0))) return T(0);
     return ggx.density(wo + wi) / (T(2) * (wo.z + ggx.stretched_length(wo)));
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include <plumbline/renderer/bsdf/film_fresnel.h>
@@ -14,12 +15,20 @@ namespace plumbline::renderer {
 
 /// A transparent film on metal or glass: the lobes of the base with the reflectance of film and
 /// base together. Without thickness it is the bare base.
-struct ThinFilm {
-  std::variant<SmoothConductor, GgxConductor, SmoothDielectric, GgxDielectric> base;
-  FilmLayer film;
+class ThinFilm {
+ public:
+  using Base = std::variant<SmoothConductor, GgxConductor, SmoothDielectric, GgxDielectric>;
+
+  ThinFilm(Base base, const FilmLayer& film)
+      : base_(std::move(base)),
+        film_(film),
+        coating_(std::visit([&](const auto& b) { return coating_of(b, film); }, base_)) {}
+
+  const Base& base() const { return base_; }
+  const FilmLayer& film() const { return film_; }
 
   BsdfParts parts() const {
-    return std::visit([](const auto& b) { return b.parts(); }, base);
+    return std::visit([](const auto& b) { return b.parts(); }, base_);
   }
 
   /// @param wo, wi  unit vectors in the local frame, pointing away from the surface
@@ -93,13 +102,33 @@ struct ThinFilm {
  private:
   template <class Result, class Function>
   Result visit(const Function& function) const {
-    return std::visit([&](const auto& b) -> Result { return function(b); }, base);
+    return std::visit([&](const auto& b) -> Result { return function(b); }, base_);
   }
 
-  FilmOnConductor coated(const SmoothConductor& b) const { return {film, b.fresnel}; }
-  FilmOnConductor coated(const GgxConductor& b) const { return {film, b.fresnel}; }
-  FilmOnDielectric coated(const SmoothDielectric& b) const { return {film, b.interface.eta}; }
-  FilmOnDielectric coated(const GgxDielectric& b) const { return {film, b.interface.eta}; }
+  using Coating = std::variant<FilmOnConductor, FilmOnDielectric>;
+
+  template <class B>
+  static Coating coating_of(const B& base, const FilmLayer& film) {
+    if constexpr (requires { base.fresnel; }) {
+      return FilmOnConductor(film, base.fresnel);
+    } else {
+      return FilmOnDielectric{film, base.interface.eta};
+    }
+  }
+
+  /// What takes the place of the base's own reflectance.
+  template <class B>
+  const auto& coated(const B&) const {
+    if constexpr (requires(const B& b) { b.fresnel; }) {
+      return *std::get_if<FilmOnConductor>(&coating_);
+    } else {
+      return *std::get_if<FilmOnDielectric>(&coating_);
+    }
+  }
+
+  Base base_;
+  FilmLayer film_;
+  Coating coating_;
 };
 
 }  // namespace plumbline::renderer
