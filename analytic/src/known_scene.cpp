@@ -68,8 +68,8 @@ double reflected_radiance(const OracleInput& input) {
 const std::vector<KnownScene>& known_scenes() {
   static const std::vector<KnownScene> scenes = [] {
     std::vector<KnownScene> all;
-    for (const auto& family :
-         {furnace_scenes(), sphere_scenes(), polygon_scenes(), shadow_scenes(), bsdf_scenes()}) {
+    for (const auto& family : {furnace_scenes(), sphere_scenes(), polygon_scenes(), shadow_scenes(),
+                               bsdf_scenes(), sun_scenes()}) {
       all.insert(all.end(), family.begin(), family.end());
     }
     std::sort(all.begin(), all.end(),

@@ -12,6 +12,7 @@ std::vector<KnownScene> sphere_scenes();
 std::vector<KnownScene> polygon_scenes();
 std::vector<KnownScene> shadow_scenes();
 std::vector<KnownScene> bsdf_scenes();
+std::vector<KnownScene> sun_scenes();
 
 /// Value of a parameter that the scene is known to have.
 double parameter(const OracleInput& input, std::string_view name);

@@ -1,0 +1,129 @@
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include <plumbline/analytic/polygon_light.h>
+
+#include "floor_oracle.h"
+#include "scenes.h"
+
+/// Sun and sky, and a light without extent.
+namespace plumbline::analytic {
+namespace {
+
+constexpr Vec3 kUp{0, 0, 1};
+
+/// The wall of sidewalk.xml: in the plane x = -1, |y| ≤ 2, up to z = 3.
+const Polygon kWall{{-1, -2, 0}, {-1, 2, 0}, {-1, 2, 3}, {-1, -2, 3}};
+
+/// Whether the wall covers the whole sun as seen from p, or none of it.
+enum class Sun { covered, clear, partly };
+
+Sun sun_behind_wall(const Vec3& p, const Vec3& to_sun, double half_angle) {
+  // To be safe, a sun a little larger than it is, and square.
+  const double margin = 2 * std::tan(half_angle);
+  const Vec3 e1 = normalize(cross(to_sun, kUp)), e2 = cross(e1, to_sun);
+  int covered = 0;
+  for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+    const Vec3 w = to_sun + e1 * (a * margin) + e2 * (b * margin);
+    const double t = (-1 - p.x) / w.x;
+    const Vec3 hit = p + w * t;
+    if (t > 0 && std::abs(hit.y) <= 2 && hit.z <= 3) ++covered;
+  }
+  return covered == 4 ? Sun::covered : covered == 0 ? Sun::clear : Sun::partly;
+}
+
+/// The sky gives π Lsky less what the black wall hides of it, by Lambert's formula; the sun
+/// Lsun π sin²σ cosθ, or nothing.
+std::unique_ptr<PixelOracle> make_sidewalk(const OracleInput& input) {
+  const double reflected = reflected_radiance(input);
+  const double sun = parameter(input, "sun");
+  require(sun >= 0 && sun < 1e300, "sun must be finite and not negative");
+  const double half_angle = 0.2665 * std::numbers::pi / 180;
+  const Vec3 to_sun = normalize({-parameter(input, "sun_x"), 0.2, 1});
+  const double sine = std::sin(half_angle);
+  const double sunlight = std::numbers::pi * sine * sine * to_sun.z * sun;
+  const double sky = parameter(input, "radiance");
+  require(sky > 0, "the sky must not be black");
+  const double w = input.camera.film.width, h = input.camera.film.height;
+  const auto seen = [&](double x, double y) {
+    const Vec3 d = input.camera.direction(x, y);
+    return sun_behind_wall(input.camera.origin + d * (-input.camera.origin.z / d.z), to_sun,
+                           half_angle);
+  };
+  const Sun place = seen(0, 0);
+  require(place != Sun::partly && place == seen(w, 0) && place == seen(0, h) && place == seen(w, h),
+          "the shadow's edge is in view: the closed form is of sun or shade alone");
+  const double direct = place == Sun::clear ? sunlight / sky : 0;
+  return floor_oracle(input.camera, 10, [=](const Vec3& p, const Vec3&) {
+    return reflected * (std::numbers::pi - polygon_irradiance(kWall, p, kUp) + direct);
+  });
+}
+
+KnownScene sidewalk() {
+  KnownScene scene;
+  scene.name = "sidewalk";
+  scene.answer =
+      "L = albedo / pi * (Lsky * (pi - E_wall) + Lsun * pi * sin^2(0.2665 deg) * cos(theta)) in "
+      "the sun, without the last term in the shade of a black wall";
+  scene.view = {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 50};
+  scene.film = {64, 48};
+  scene.max_depth = 2;
+  scene.parameters = {
+      {"sun_x", -0.5, "its light travels along (sun_x, -0.2, -1); 0.8 is from behind the wall"},
+      {"sun", 20000, "radiance of the sun [W/(m² sr)], not negative"},
+      {"radiance", 0.5, "Le of the sky [W/(m² sr)], positive"},
+      {"albedo", 0.5, "reflectance of the sidewalk [1], 0 to 1"}};
+  constexpr std::string_view kTooSmall =
+      "directions that know nothing of the sun find it once in 1e5 tries";
+  scene.expectations = expect_pass_but_for({{Strategy::bsdf, Expected::hopeless, kTooSmall},
+                                            {Strategy::uniform, Expected::hopeless, kTooSmall},
+                                            {Strategy::average, Expected::hopeless, kTooSmall}});
+  constexpr std::string_view kHidden = "the wall hides the sun that these cannot find";
+  scene.variants = {{"shade",
+                     {{"sun_x", 0.8}},
+                     {{Strategy::bsdf, Expected::pass, kHidden},
+                      {Strategy::uniform, Expected::pass, kHidden},
+                      {Strategy::average, Expected::pass, kHidden}}}};
+  scene.make = make_sidewalk;
+  return scene;
+}
+
+/// f I cosθ/d² with f of the Phong lobe, n = 20.
+std::unique_ptr<PixelOracle> make_point_glossy(const OracleInput& input) {
+  constexpr double kExponent = 20;
+  const double intensity = parameter(input, "intensity");
+  require(intensity >= 0 && intensity < 1e300, "intensity must be finite and not negative");
+  const bool lit = input.max_depth == -1 || input.max_depth >= 2;
+  const double scale = lit ? (kExponent + 2) / (2 * std::numbers::pi) * intensity : 0;
+  return floor_oracle(input.camera, 10, [=](const Vec3& p, const Vec3& to_camera) {
+    const Vec3 r = Vec3{1.2, 0, 1.2} - p;
+    const double d2 = dot(r, r);
+    const Vec3 wi = r * (1 / std::sqrt(d2));
+    const double lobe = dot(wi, {-to_camera.x, -to_camera.y, to_camera.z});
+    return lobe > 0 ? scale * std::pow(lobe, kExponent) * wi.z / d2 : 0;
+  });
+}
+
+KnownScene point_glossy() {
+  KnownScene scene;
+  scene.name = "point_glossy";
+  scene.answer = "L = (n + 2) / (2 pi) * cos^n(alpha) * I * cos(theta) / d^2 of a point light";
+  scene.view = {{-1.2, 0, 1.2}, {0, 0, 0}, {0, 0, 1}, 40};
+  scene.film = {64, 48};
+  scene.max_depth = 2;
+  scene.parameters = {{"intensity", 5, "of the light [W/sr], not negative"}};
+  constexpr std::string_view kBlind = "no direction from a BSDF meets a point";
+  scene.expectations = expect_pass_but_for({{Strategy::bsdf, Expected::fail, kBlind},
+                                            {Strategy::uniform, Expected::fail, kBlind},
+                                            {Strategy::average, Expected::fail, kBlind}});
+  scene.make = make_point_glossy;
+  return scene;
+}
+
+}  // namespace
+
+std::vector<KnownScene> sun_scenes() { return {point_glossy(), sidewalk()}; }
+
+}  // namespace plumbline::analytic
