@@ -50,7 +50,7 @@ class CosineTable {
   double error() const { return error_; }  ///< relative, seen between the points
 
  private:
-  static constexpr std::size_t kPoints = 12;
+  static constexpr std::size_t kPoints = 18;
 
   double low_, error_ = 0;
   std::array<double, kPoints> x_{}, weight_{}, f_{};
