@@ -294,13 +294,23 @@ function figureDatasets(figure) {
   });
 }
 
+function plainTable({columns, rows}) {
+  const cells = (tag, texts) =>
+    element('tr', {}, texts.map((text, i) => element(tag, {className: i > 0 ? 'number' : ''}, text)));
+  return element('div', {className: 'scroll'}, element('table', {},
+    element('thead', {}, cells('th', columns)), element('tbody', {}, rows.map((row) => cells('td', row)))));
+}
+
 function addFigures() {
   let number = 0;
-  for (const [group, figures] of groupBy(data.figures, (figure) => figure.group)) {
-    const cards = figures.map((figure) =>
-      element('div', {className: 'card'}, element('h3', {}, figure.title),
-        element('p', {className: 'caption'}, figure.caption),
-        plot(() => figureDatasets(figure), figure.x_axis, figure.y_axis, figure.title)));
-    addSection(`figures-${++number}`, group, figures.length, '', element('div', {className: 'plots'}, cards));
+  const all = [...data.figures, ...data.tables];
+  for (const [group, items] of groupBy(all, (item) => item.group)) {
+    const card = (item, content) => element('div', {className: 'card'}, element('h3', {}, item.title),
+      element('p', {className: 'caption'}, item.caption), content);
+    const tables = items.filter((item) => item.rows).map((item) => card(item, plainTable(item)));
+    const plots = items.filter((item) => item.series).map((item) =>
+      card(item, plot(() => figureDatasets(item), item.x_axis, item.y_axis, item.title)));
+    addSection(`figures-${++number}`, group, items.length, '',
+      element('div', {}, tables, element('div', {className: 'plots'}, plots)));
   }
 }

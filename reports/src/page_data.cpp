@@ -177,7 +177,8 @@ std::string page_data(const PageInput& input) {
                      {"speed", speed_to_json(results.speed)},
                      {"ray_costs", list_to_json(results.ray_costs)},
                      {"stability", list_to_json(results.stability)},
-                     {"figures", list_to_json(results.figures)}};
+                     {"figures", list_to_json(results.figures)},
+                     {"tables", list_to_json(results.tables)}};
   std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   escape_for_script(text);
   return text;

@@ -52,6 +52,8 @@ void add_document(Results& results, const std::string& text, const fs::path& dir
     results.stability.push_back(parse_stability_record(text));
   } else if (format == detail::kFigureFormat) {
     results.figures.push_back(parse_figure(text));
+  } else if (format == detail::kTableFormat) {
+    results.tables.push_back(parse_table(text));
   } else if (format == detail::kEnvironmentFormat) {
     add_environment(results.environments, parse_environment(text));
   } else if (format.empty()) {
@@ -90,7 +92,7 @@ void read_single(Results& results, const fs::path& file, const std::string& text
 bool holds_nothing(const Results& results) {
   return results.checks.empty() && results.renders.empty() && results.speed.empty() &&
          results.ray_costs.empty() && results.stability.empty() && results.figures.empty() &&
-         results.warnings.empty();
+         results.tables.empty() && results.warnings.empty();
 }
 
 }  // namespace

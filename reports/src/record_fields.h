@@ -16,6 +16,7 @@ inline constexpr const char* kSpeedFormat = "plumbline.speed/1";
 inline constexpr const char* kRayCostFormat = "plumbline.ray_cost/1";
 inline constexpr const char* kStabilityFormat = "plumbline.stability/1";
 inline constexpr const char* kFigureFormat = "plumbline.figure/1";
+inline constexpr const char* kTableFormat = "plumbline.table/1";
 
 /// Whether `T`, const or not, is `Record`: one function serves the writer and the reader.
 template <class T, class Record>
@@ -169,6 +170,15 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("x_axis", r.x);
   visit("y_axis", r.y);
   visit("series", r.series);
+}
+
+template <class Visitor, Is<Table> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("group", r.group);
+  visit("title", r.title);
+  visit("caption", r.caption);
+  visit("columns", r.columns);
+  visit("rows", r.rows);
 }
 
 }  // namespace plumbline::reports::detail

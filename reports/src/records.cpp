@@ -14,6 +14,14 @@ void require_same_lengths(const Figure& figure) {
   }
 }
 
+void require_full_rows(const Table& table) {
+  for (const std::vector<std::string>& row : table.rows) {
+    if (row.size() != table.columns.size()) {
+      throw FormatError("table \"" + table.title + "\": a row is not as long as the columns");
+    }
+  }
+}
+
 }  // namespace
 
 std::string to_json(const verify::CheckResult& result) {
@@ -71,6 +79,17 @@ Figure parse_figure(std::string_view json) {
   Figure figure = detail::parse_document<Figure>(detail::kFigureFormat, json);
   require_same_lengths(figure);
   return figure;
+}
+
+std::string to_json(const Table& table) {
+  require_full_rows(table);
+  return detail::document(detail::kTableFormat, table);
+}
+
+Table parse_table(std::string_view json) {
+  Table table = detail::parse_document<Table>(detail::kTableFormat, json);
+  require_full_rows(table);
+  return table;
 }
 
 }  // namespace plumbline::reports

@@ -40,6 +40,7 @@ TEST(Formats, EveryRecordSurvivesTheRoundTrip) {
   EXPECT_EQ(parse_ray_cost(to_json(sample_ray_cost())), sample_ray_cost());
   EXPECT_EQ(parse_stability_record(to_json(sample_stability_record())), sample_stability_record());
   EXPECT_EQ(parse_figure(to_json(sample_figure())), sample_figure());
+  EXPECT_EQ(reports::parse_table(to_json(sample_table())), sample_table());
 }
 
 TEST(Formats, CheckIsReadBackFieldByField) {
@@ -87,6 +88,7 @@ TEST(Formats, EachStatesItsFormatFirstOnOneLine) {
       {to_json(sample_ray_cost()), "plumbline.ray_cost/1"},
       {to_json(sample_stability_record()), "plumbline.stability/1"},
       {to_json(sample_figure()), "plumbline.figure/1"},
+      {to_json(sample_table()), "plumbline.table/1"},
   };
   for (const auto& [text, format] : cases) {
     EXPECT_EQ(text.rfind("{\"format\":\"" + format + "\"", 0), 0u) << text;

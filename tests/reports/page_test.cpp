@@ -36,6 +36,7 @@ PageInput sample_input() {
   input.results.ray_costs = {sample_ray_cost()};
   input.results.stability = {sample_stability_record()};
   input.results.figures = {sample_figure()};
+  input.results.tables = {sample_table()};
   input.images = {{"furnace_sphere", "mis, power", 1, 1, {0.5f, 0.25f, 0.125f}}};
   return input;
 }
@@ -95,6 +96,7 @@ TEST(Page, HoldsEveryRecordOfTheResults) {
   EXPECT_EQ(data["ray_costs"][0]["ratio"], 0.75);
   EXPECT_EQ(data["stability"][0]["condition"], 3e5);
   EXPECT_EQ(data["figures"][0]["title"], "Error against samples");
+  EXPECT_EQ(data["tables"][0]["rows"][1][1], "1.25");
   EXPECT_EQ(data["images"][0]["group"], "furnace_sphere");
 }
 

@@ -50,6 +50,7 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
     bench.append(sample_ray_cost());
     bench.append(sample_stability_record());
     bench.append(sample_figure());
+    bench.append(sample_table());
   }
   fs::create_directories(scratch / "images");
   reports::RenderRecord render = sample_render();
@@ -62,6 +63,7 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
   EXPECT_EQ(results.ray_costs.size(), 1u);
   EXPECT_EQ(results.stability.size(), 1u);
   EXPECT_EQ(results.figures.size(), 1u);
+  EXPECT_EQ(results.tables.size(), 1u);
   ASSERT_EQ(results.renders.size(), 1u);
   EXPECT_EQ(fs::weakly_canonical(results.renders[0].image), fs::weakly_canonical(render.image));
   EXPECT_EQ(results.environments.size(), 1u) << "both logs were made by this build";

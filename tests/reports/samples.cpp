@@ -130,4 +130,14 @@ reports::Figure sample_figure() {
   return figure;
 }
 
+reports::Table sample_table() {
+  reports::Table table;
+  table.group = "Integrals with known answers";
+  table.title = "Efficiency";
+  table.caption = "Larger is better.";
+  table.columns = {"method", "MSE"};
+  table.rows = {{"equal", "1"}, {"root", "1.25"}};
+  return table;
+}
+
 }  // namespace plumbline::tests

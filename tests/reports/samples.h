@@ -13,5 +13,6 @@ reports::SpeedPoint sample_speed_point();
 reports::RayCost sample_ray_cost();
 reports::StabilityRecord sample_stability_record();
 reports::Figure sample_figure();
+reports::Table sample_table();
 
 }  // namespace plumbline::tests

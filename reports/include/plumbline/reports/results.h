@@ -12,6 +12,7 @@
 #include <plumbline/reports/figure.h>
 #include <plumbline/reports/render_record.h>
 #include <plumbline/reports/stability_record.h>
+#include <plumbline/reports/table.h>
 #include <plumbline/verify/result.h>
 
 namespace plumbline::reports {
@@ -41,6 +42,7 @@ class ResultLog {
   void append(const RayCost& cost) { append_line(to_json(cost)); }
   void append(const StabilityRecord& record) { append_line(to_json(record)); }
   void append(const Figure& figure) { append_line(to_json(figure)); }
+  void append(const Table& table) { append_line(to_json(table)); }
   void append(const RunEnvironment& environment) { append_line(to_json(environment)); }
 
  private:
@@ -65,6 +67,7 @@ struct Results {
   std::vector<RayCost> ray_costs;
   std::vector<StabilityRecord> stability;
   std::vector<Figure> figures;
+  std::vector<Table> tables;
   std::vector<RunEnvironment> environments;  ///< one per build and machine, the latest of each
   std::vector<ReadWarning> warnings;
 };
