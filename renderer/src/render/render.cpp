@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <span>
+
+#include <plumbline/renderer/render/direct.h>
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -63,7 +66,11 @@ class Renderer {
         film_(scene.camera().width(), scene.camera().height()),
         dealt_(options.sampler == SamplerType::sobol ? film_.pixels().size() * options.replicates
                                                      : 0),
-        progress_(options.progress, film_.pixels().size() * options.samples_per_pixel) {}
+        progress_(options.progress, film_.pixels().size() * options.samples_per_pixel) {
+    if (options.allocation) {
+      bsdf_counts_.resize(film_.pixels().size() * options.allocation->iterations);
+    }
+  }
 
   RenderResult run() {
     const auto start = std::chrono::steady_clock::now();
@@ -81,7 +88,7 @@ class Renderer {
         break;
       }
     }
-    RenderResult result{std::move(film_), {}, done, elapsed()};
+    RenderResult result{std::move(film_), {}, done, elapsed(), std::move(bsdf_counts_)};
     for (const PathCounters& counters : counters_) result.counters += counters;
     return result;
   }
@@ -113,7 +120,11 @@ class Renderer {
         PathCounters& counters = counters_.local();
         for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
           for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
-            render_pixel(x, y, first_sample, samples, counters);
+            if (options_.allocation) {
+              allocate_pixel(x, y, counters);
+            } else {
+              render_pixel(x, y, first_sample, samples, counters);
+            }
           }
         }
         progress_.advance(tile.rows().size() * tile.cols().size() * samples);
@@ -143,6 +154,29 @@ class Renderer {
     for (const PixelMoments& replicate : dealt) pixel.add_replicate(replicate);
   }
 
+  void allocate_pixel(int x, int y, PathCounters& counters) {
+    PixelMoments& pixel = film_.at(x, y);
+    const auto index = static_cast<std::uint64_t>(&pixel - film_.pixels().data());
+    std::uint32_t* bsdf_counts = &bsdf_counts_[index * options_.allocation->iterations];
+    Pcg32 random(options_.seed, index, 0);
+    Rgbf emission;
+    const auto draw = [&](std::size_t technique) {
+      const Vec2f jitter = random.next_2d();
+      const Ray ray =
+          scene_.camera().ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
+      const float u_light = random.next_1d();
+      const DirectSample sample =
+          sample_direct_light(scene_, ray, technique, u_light, random.next_2d(), counters);
+      emission = sample.emission;
+      return TechniqueSample<Rgbd>{rgb_cast<double>(sample.value), sample.pdf, sample.other_pdf};
+    };
+    const auto record = [&](std::uint32_t iteration, std::size_t technique, const Rgbd& reflected) {
+      if (technique == kBsdfTechnique) ++bsdf_counts[iteration];
+      pixel.add(emission + rgb_cast<float>(reflected));
+    };
+    allocate_samples(*options_.allocation, options_.samples_per_pixel, draw, record);
+  }
+
   static constexpr std::size_t kTileSize = 8;  // small enough that two threads end together
 
   const Scene& scene_;
@@ -153,9 +187,43 @@ class Renderer {
   std::vector<PixelMoments> dealt_;  // under Sobol: the replicates of each pixel
   Progress progress_;
   oneapi::tbb::enumerable_thread_specific<PathCounters> counters_;
+  std::vector<std::uint32_t> bsdf_counts_;
 };
 
+void check_allocation(const RenderOptions& options) {
+  const AllocationOptions& allocation = *options.allocation;
+  if (options.path.max_depth != 2) {
+    throw InputError("sample allocation works on direct light only: set the maximum depth to 2");
+  }
+  if (options.sampler != SamplerType::independent) {
+    throw InputError("sample allocation works with the independent sampler only");
+  }
+  if (options.seconds > 0 || options.relative_error > 0) {
+    throw InputError("sample allocation needs a sample count, not a limit on time or error");
+  }
+  if (allocation.iterations < 1 || options.samples_per_pixel / 2 < allocation.iterations) {
+    throw InputError("sample allocation needs two samples per pixel in every iteration");
+  }
+  if (!(allocation.limit > 0 && allocation.limit <= 0.5)) {
+    throw InputError("the limit of the sample allocation must lie in (0, 0.5]");
+  }
+  if (!(allocation.cost_ratio > 0 && std::isfinite(allocation.cost_ratio))) {
+    throw InputError("the cost ratio of the sample allocation must be positive");
+  }
+}
+
 }  // namespace
+
+std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterations) {
+  const std::uint64_t samples = result.samples_per_pixel;
+  const auto last = static_cast<float>(samples - samples * (iterations - 1) / iterations);
+  std::vector<float> shares;
+  shares.reserve(result.film.pixels().size());
+  for (std::size_t i = iterations - 1; i < result.bsdf_counts.size(); i += iterations) {
+    shares.push_back(static_cast<float>(result.bsdf_counts[i]) / last);
+  }
+  return shares;
+}
 
 RenderResult render(const Scene& scene, const RenderOptions& options) {
   if (options.path.max_depth < 0 && options.path.rr_depth == kNoRoulette) {
@@ -167,6 +235,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
       options.replicates < 2) {
     throw InputError("an error limit needs at least 2 replicates of Sobol points to see an error");
   }
+  if (options.allocation) check_allocation(options);
   return Renderer(scene, options).run();
 }
 

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
+#include <optional>
+#include <vector>
 
+#include <plumbline/renderer/mis/allocation.h>
 #include <plumbline/renderer/render/film.h>
 #include <plumbline/renderer/render/path.h>
 #include <plumbline/renderer/scene/scene.h>
@@ -24,6 +26,10 @@ struct RenderOptions {
   /// variance.
   std::uint32_t replicates = 1;
   int threads = 0;  ///< 0: all cores. The image does not depend on it.
+  /// Direct light only, BSDF samples (technique 1) and light samples shared out pixel by pixel,
+  /// balanced: takes the place of strategy and heuristic. Needs a depth of 2, a sample count that
+  /// gives every iteration two, independent samples, and no other limit.
+  std::optional<AllocationOptions> allocation;
   /// Called now and then from one thread with the fraction done, in [0, 1]. May be empty.
   std::function<void(double)> progress;
 };
@@ -33,13 +39,23 @@ struct RenderResult {
   PathCounters counters;
   std::uint32_t samples_per_pixel = 0;  ///< drawn
   double seconds = 0;
+  /// With an allocation: BSDF samples drawn in each iteration, pixel after pixel, the iterations of
+  /// a pixel side by side. Else empty. The film's variances are those of random mixtures then,
+  /// which the counts, being fixed within an iteration, undercut.
+  std::vector<std::uint32_t> bsdf_counts;
 };
+
+/// Share of BSDF samples of each pixel in its last iteration: what the allocation came to.
+///
+/// @param iterations  as rendered with
+std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterations);
 
 /// Renders an image. The same scene, path options, seed and sample count give the same bits,
 /// whatever the number of threads or passes.
 ///
-/// @throws InputError for an infinite path depth without Russian roulette, which may never end, and
-///         for an error limit on one replicate of Sobol points, whose error is not known
+/// @throws InputError for an infinite path depth without Russian roulette, which may never end,
+///         for an error limit on one replicate of Sobol points, whose error is not known, and for
+///         an allocation that the other options do not fit
 RenderResult render(const Scene& scene, const RenderOptions& options);
 
 }  // namespace plumbline::renderer

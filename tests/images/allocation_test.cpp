@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <plumbline/analytic/known_scene.h>
+#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/verify/mean_check.h>
+#include <plumbline_tests/support.h>
+
+/// Sample allocation in the renderer: the image that it converges to, and what it refuses.
+namespace plumbline::tests {
+namespace {
+
+using renderer::Allocation;
+using renderer::Scene;
+
+renderer::SceneDescription small_scene(const std::string& name) {
+  auto description = renderer::load_scene(analytic::scene_file(name));
+  description.camera.width = 8;
+  description.camera.height = 6;
+  return description;
+}
+
+renderer::RenderOptions allocated(Allocation policy, std::uint64_t seed) {
+  renderer::RenderOptions options;
+  options.path.max_depth = 2;
+  options.samples_per_pixel = 40;
+  options.seed = seed;
+  options.allocation = {.policy = policy, .iterations = 4, .cost_ratio = 1.2};
+  return options;
+}
+
+class AllocatedImage : public testing::TestWithParam<Allocation> {};
+
+TEST_P(AllocatedImage, MeanIsTheClosedFormForEveryPolicy) {
+  const Scene scene(small_scene("sphere_light"));
+  verify::MeanOptions options;
+  options.subject = "sphere_light/allocation ";
+  options.subject.append(name(GetParam()));
+  options.reference = make_oracle(analytic::known_scene("sphere_light"))->image_mean().value;
+  options.seed = check_seed(options.subject);
+  options.max_samples = 1 << 16;
+  // One sample is one image. Their numbers come from the seed of the check, counted up.
+  expect_verdict(check_mean(options, [&](std::uint64_t first, std::uint64_t count) {
+    verify::Moments moments;
+    for (std::uint64_t i = first; i < first + count; ++i) {
+      moments.add(luminance(render(scene, allocated(GetParam(), options.seed + i)).film.mean()));
+    }
+    return moments;
+  }));
+}
+
+INSTANTIATE_TEST_SUITE_P(Policies, AllocatedImage, testing::ValuesIn(renderer::kAllocations),
+                         [](const auto& param) {
+                           std::string text(name(param.param));
+                           std::replace(text.begin(), text.end(), '-', '_');
+                           return text;
+                         });
+
+TEST(AllocatedImageControl, AnswerOffByOnePercentFails) {
+  const Scene scene(small_scene("sphere_light"));
+  verify::MeanOptions options;
+  options.subject = "control/sphere_light, allocation root-v2, answer off by 1 %";
+  options.reference = 1.01 * make_oracle(analytic::known_scene("sphere_light"))->image_mean().value;
+  options.seed = check_seed(options.subject);
+  options.max_samples = 1 << 16;
+  options.expected = verify::Verdict::fail;
+  expect_verdict(check_mean(options, [&](std::uint64_t first, std::uint64_t count) {
+    verify::Moments moments;
+    for (std::uint64_t i = first; i < first + count; ++i) {
+      moments.add(
+          luminance(render(scene, allocated(Allocation::root_v2, options.seed + i)).film.mean()));
+    }
+    return moments;
+  }));
+}
+
+TEST(AllocatedRender, IsTheSameForAnyNumberOfThreads) {
+  const Scene scene(small_scene("sphere_light"));
+  auto options = allocated(Allocation::root_nodes, 7);
+  options.threads = 1;
+  const renderer::RenderResult one = render(scene, options);
+  options.threads = 3;
+  const renderer::RenderResult three = render(scene, options);
+  EXPECT_EQ(one.bsdf_counts, three.bsdf_counts);
+  for (std::size_t i = 0; i < one.film.pixels().size(); ++i) {
+    EXPECT_EQ(one.film.pixels()[i].mean, three.film.pixels()[i].mean);
+    EXPECT_EQ(one.film.pixels()[i].count, options.samples_per_pixel);
+  }
+}
+
+TEST(AllocatedRender, NotesTheCountsDrawnInEveryIteration) {
+  const Scene scene(small_scene("sphere_light"));
+  const auto options = allocated(Allocation::root_v2, 7);
+  const renderer::RenderResult result = render(scene, options);
+  const std::size_t pixels = result.film.pixels().size();
+  ASSERT_EQ(result.bsdf_counts.size(), 4 * pixels);
+  const std::vector<float> shares = final_shares(result, 4);
+  ASSERT_EQ(shares.size(), pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    EXPECT_EQ(result.bsdf_counts[4 * i], 5u);  // half of ten
+    EXPECT_EQ(shares[i], static_cast<float>(result.bsdf_counts[4 * i + 3]) / 10);
+    EXPECT_GE(shares[i], 0.1f);
+    EXPECT_LE(shares[i], 0.9f);
+  }
+}
+
+/// A diffuse floor under a small light: points on the light must get most of the samples.
+TEST(AllocatedRender, SmallLightGetsTheLightSamples) {
+  auto description = renderer::load_scene(source_file("bench/scenes/small_light.xml"));
+  description.camera.width = 8;
+  description.camera.height = 6;
+  auto options = allocated(Allocation::root_nodes, 7);
+  options.samples_per_pixel = 400;
+  for (const float share : final_shares(render(Scene(description), options), 4)) {
+    EXPECT_EQ(share, 0.1f);
+  }
+}
+
+TEST(AllocatedRender, RefusesWhatDoesNotFit) {
+  const Scene scene(small_scene("sphere_light"));
+  const auto refused = [&](const auto& change) {
+    auto options = allocated(Allocation::equal, 0);
+    change(options);
+    EXPECT_THROW(render(scene, options), renderer::InputError);
+  };
+  refused([](auto& o) { o.path.max_depth = 3; });
+  refused([](auto& o) { o.seconds = 1; });
+  refused([](auto& o) { o.relative_error = 0.1; });
+  refused([](auto& o) { o.sampler = renderer::SamplerType::sobol; });
+  refused([](auto& o) { o.samples_per_pixel = 7; });
+  refused([](auto& o) { o.allocation->iterations = 0; });
+  refused([](auto& o) { o.allocation->limit = 0; });
+  refused([](auto& o) { o.allocation->limit = 0.6; });
+  refused([](auto& o) { o.allocation->cost_ratio = 0; });
+}
+
+}  // namespace
+}  // namespace plumbline::tests
