@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
+#include <plumbline/renderer/mis/allocation.h>
 #include <plumbline/renderer/render/strategy.h>
 #include <plumbline/renderer/scene/load_scene.h>
 
@@ -81,6 +82,36 @@ std::string meaning(renderer::Heuristic heuristic) {
   return {};
 }
 
+std::string meaning(renderer::Allocation policy) {
+  switch (policy) {
+    case renderer::Allocation::equal:
+      return "as many BSDF as light samples";
+    case renderer::Allocation::lu:
+      return "one Newton step from equal counts (Lu et al. 2013)";
+    case renderer::Allocation::sbert_moment:
+      return "shares by inverse second moments (Sbert et al. 2018)";
+    case renderer::Allocation::sbert_variance:
+      return "shares by inverse variances (Sbert et al. 2018)";
+    case renderer::Allocation::root_v1:
+      return "Newton's method on V', each technique by its own samples (Root Adaptive MIS)";
+    case renderer::Allocation::root_v2:
+      return "Newton's method on V', by all samples of an iteration (Root Adaptive MIS)";
+    case renderer::Allocation::root_nodes:
+      return "root of V' between nodes at which all samples so far estimate it";
+    case renderer::Allocation::cost_aware:
+      return "the same for variance x time, with --cost-ratio";
+  }
+  return {};
+}
+
+Topic allocations() {
+  Topic topic{"allocations", "allocations of direct light samples to BSDF and lights", {}};
+  for (const renderer::Allocation policy : renderer::kAllocations) {
+    topic.entries.push_back({std::string(name(policy)), meaning(policy)});
+  }
+  return topic;
+}
+
 Topic heuristics() {
   Topic topic{"heuristics", "heuristics for the weights of mis and one-sample", {}};
   for (const renderer::Heuristic heuristic : renderer::kHeuristics) {
@@ -102,6 +133,7 @@ std::vector<Topic> topics() {
   return {scenes(),
           strategies(),
           heuristics(),
+          allocations(),
           types("bsdfs", "bsdf"),
           types("lights", "emitter"),
           types("shapes", "shape"),

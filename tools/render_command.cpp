@@ -15,6 +15,7 @@
 #include <plumbline/renderer/scene/load_scene.h>
 #include <plumbline/reports/render_record.h>
 
+#include "allocation_options.h"
 #include "command.h"
 #include "numbers.h"
 #include "output_file.h"
@@ -39,6 +40,7 @@ struct RenderArguments {
   renderer::SamplerType sampler = renderer::SamplerType::independent;
   std::optional<std::uint32_t> replicates;
   renderer::LightSelection light_selection = renderer::LightSelection::uniform;
+  AllocationArguments allocation;
   std::optional<std::uint32_t> samples;
   double seconds = 0;
   double error = 0;
@@ -97,6 +99,7 @@ renderer::RenderOptions render_options(const RenderArguments& arguments,
   options.sampler = arguments.sampler;
   options.replicates = replicates_of(arguments);
   options.threads = arguments.threads;
+  set_allocation(arguments.allocation, arguments.samples.has_value(), options);
   return options;
 }
 
@@ -108,6 +111,7 @@ std::string strategy_label(const RenderArguments& arguments) {
   std::string label =
       arguments.strategy == renderer::Strategy::mis ? "MIS" : std::string(name(arguments.strategy));
   if (!uses_heuristic(arguments.strategy)) return label;
+  if (arguments.allocation.policy) label += fmt::format(" {}", name(*arguments.allocation.policy));
   if (!arguments.counts.empty()) label += " " + arguments.counts;
   if (arguments.light_probability) label += fmt::format(" {}", *arguments.light_probability);
   return fmt::format("{} ({})", label, describe(arguments.heuristic));
@@ -116,6 +120,7 @@ std::string strategy_label(const RenderArguments& arguments) {
 /// The strategy as records name it: "mis", "mis 4,2", "one-sample 0.25".
 std::string strategy_record(const RenderArguments& arguments) {
   std::string text(name(arguments.strategy));
+  if (arguments.allocation.policy) text += fmt::format(" {}", name(*arguments.allocation.policy));
   if (!arguments.counts.empty()) text += " " + arguments.counts;
   if (arguments.light_probability) text += fmt::format(" {}", *arguments.light_probability);
   return text;
@@ -203,6 +208,7 @@ void print_done(const std::string& output, const reports::RenderRecord& record) 
 int run_render(const RenderArguments& arguments) {
   const OutputFile output(arguments.output);
   const auto json = arguments.json.empty() ? nullptr : std::make_unique<OutputFile>(arguments.json);
+  const ShareMap share_map(arguments.allocation);
   renderer::SceneDescription description =
       load_scene(scene_path(arguments.scene), parse_definitions(arguments.definitions),
                  parse_size(arguments.size));
@@ -220,6 +226,7 @@ int run_render(const RenderArguments& arguments) {
   image.metadata = metadata(record);
   write_exr(output.path(), image);
   output.finish();
+  share_map.write(result);
   if (json) {
     reports::write_render_record(json->path(), record);
     json->finish();
@@ -315,6 +322,7 @@ void add_render_command(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<RenderArguments>();
   CLI::App* command = app.add_subcommand("render", "Render a scene to an OpenEXR image");
   add_options(*command, *arguments);
+  add_allocation_options(*command, arguments->allocation, arguments->heuristic);
   command->footer(R"(Examples:
   plumbline render furnace_cube -o cube.exr --strategy one-sample --heuristic balance --spp 1024
   plumbline render sphere_light -o light.exr -D radius=0.1 -D height=2 --error 0.01

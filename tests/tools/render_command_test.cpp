@@ -69,6 +69,27 @@ TEST(RenderCommand, SobolImagesSayHowTheirNoiseIsKnown) {
   EXPECT_EQ(record.light_selection, "power");
 }
 
+TEST(RenderCommand, SharesOutSamplesAndWritesTheMapOfTheShares) {
+  const Scratch scratch;
+  const Outcome outcome = run_plumbline(
+      scratch.path(),
+      "render sphere_light -o out.exr --json out.json --allocation root-nodes --spp 60 "
+      "--iterations 3 --share-limit 0.25 --share-map shares.exr --size 12x8");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.substr(0, outcome.out.find(':')), "MIS root-nodes (balance)");
+  const renderer::Image shares = renderer::read_exr(scratch.file("shares.exr"));
+  ASSERT_EQ(shares.pixels.size(), 12u * 8);
+  for (const renderer::Rgbf& share : shares.pixels) {
+    EXPECT_GE(share.r, 0.25f);
+    EXPECT_LE(share.r, 0.75f);
+  }
+  EXPECT_EQ(renderer::read_exr(scratch.file("out.exr")).count.at(0), 60);
+  const reports::RenderRecord record = reports::read_render_record(scratch.file("out.json"));
+  EXPECT_EQ(record.strategy, "mis root-nodes");
+  EXPECT_EQ(record.heuristic, "balance");
+  EXPECT_EQ(record.samples_per_pixel, 60u);
+}
+
 TEST(RenderCommand, SaysAtTheStartWhatItFound) {
   const Scratch scratch;
   const Outcome outcome =

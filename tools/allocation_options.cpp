@@ -1,0 +1,92 @@
+#include "allocation_options.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include <plumbline/renderer/nearest_name.h>
+#include <plumbline/renderer/render/exr.h>
+
+#include "numbers.h"
+
+namespace plumbline::tools {
+namespace {
+
+constexpr std::uint32_t kMaxIterations = 1u << 20;
+constexpr std::uint32_t kSamples = 1000;  // 50 in each of 20 iterations
+
+std::vector<std::string> policy_names() {
+  std::vector<std::string> names;
+  for (const renderer::Allocation policy : renderer::kAllocations) names.emplace_back(name(policy));
+  return names;
+}
+
+renderer::Allocation parse_policy(const std::string& text) {
+  if (const auto policy = renderer::allocation_from_name(text)) return *policy;
+  throw renderer::InputError(fmt::format("--allocation {}: there is no such policy; {}", text,
+                                         renderer::name_hint(text, policy_names())));
+}
+
+}  // namespace
+
+void add_allocation_options(CLI::App& command, AllocationArguments& arguments,
+                            renderer::Weighting& heuristic) {
+  CLI::Option* allocation =
+      command
+          .add_option_function<std::string>(
+              "--allocation",
+              [&](const std::string& text) {
+                arguments.policy = parse_policy(text);
+                heuristic = renderer::Heuristic::balance;
+              },
+              fmt::format("Direct light by BSDF and light samples, shared out pixel by pixel: {}",
+                          fmt::join(policy_names(), ", ")))
+          ->type_name("NAME");
+  for (const char* other : {"--strategy", "--heuristic", "--counts", "--light-probability",
+                            "--sampler", "--seconds", "--error"}) {
+    allocation->excludes(command.get_option(other));
+  }
+  const auto add = [&](const char* option, auto& value, const char* meaning, const char* type) {
+    return command.add_option(option, value, meaning)->type_name(type)->needs(allocation);
+  };
+  add("--iterations", arguments.options.iterations, "Of the allocation; 20 without it", "N")
+      ->check(whole_number(1, kMaxIterations));
+  add("--share-limit", arguments.options.limit, "Least share of a technique; 0.1 without it", "A")
+      ->check(positive_number());
+  add("--cost-ratio", arguments.options.cost_ratio,
+      "For cost-aware: time of a BSDF sample over that of a light sample", "C")
+      ->check(positive_number());
+  add("--share-map", arguments.share_map,
+      "Write the share of BSDF samples of each pixel to this OpenEXR file", "FILE");
+}
+
+void set_allocation(const AllocationArguments& arguments, bool samples_given,
+                    renderer::RenderOptions& options) {
+  if (!arguments.policy) return;
+  options.allocation = arguments.options;
+  options.allocation->policy = *arguments.policy;
+  if (!samples_given) options.samples_per_pixel = kSamples;
+  if (*arguments.policy == renderer::Allocation::cost_aware && arguments.options.cost_ratio == 1) {
+    throw renderer::InputError(
+        "--allocation cost-aware needs --cost-ratio: at equal costs it is root-nodes");
+  }
+}
+
+ShareMap::ShareMap(const AllocationArguments& arguments)
+    : file_(arguments.share_map.empty() ? nullptr
+                                        : std::make_unique<OutputFile>(arguments.share_map)),
+      iterations_(arguments.options.iterations) {}
+
+void ShareMap::write(const renderer::RenderResult& result) const {
+  if (!file_) return;
+  renderer::Image map;
+  map.width = result.film.width();
+  map.height = result.film.height();
+  for (const float share : final_shares(result, iterations_)) {
+    map.pixels.push_back({share, share, share});
+  }
+  write_exr(file_->path(), map);
+  file_->finish();
+}
+
+}  // namespace plumbline::tools

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <plumbline/renderer/render/render.h>
+
+#include "output_file.h"
+
+namespace plumbline::tools {
+
+/// What `render` was told about the allocation of samples.
+struct AllocationArguments {
+  std::optional<renderer::Allocation> policy;
+  renderer::AllocationOptions options;
+  std::string share_map;
+};
+
+/// Adds --allocation, which rules out the options that it takes the place of and makes `heuristic`
+/// balance, and the options that need it.
+void add_allocation_options(CLI::App& command, AllocationArguments& arguments,
+                            renderer::Weighting& heuristic);
+
+/// @param samples_given  or else the sample count becomes that of the allocation: 1000
+/// @throws renderer::InputError for cost-aware without costs
+void set_allocation(const AllocationArguments& arguments, bool samples_given,
+                    renderer::RenderOptions& options);
+
+/// The share of BSDF samples that each pixel came to, as a grey image: opened before the render,
+/// written after it. Nothing without --share-map.
+class ShareMap {
+ public:
+  explicit ShareMap(const AllocationArguments& arguments);
+  void write(const renderer::RenderResult& result) const;
+
+ private:
+  std::unique_ptr<OutputFile> file_;
+  std::uint32_t iterations_;
+};
+
+}  // namespace plumbline::tools
