@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <plumbline/reports/results.h>
+#include "allocation.h"
 #include "shadow_rays.h"
 #include "speed_error.h"
 
@@ -30,25 +31,41 @@ void measure_sampling_cost(const std::filesystem::path& results, bool full) {
   benchmark::Shutdown();
 }
 
+/// A log of its own for one part, without what an earlier run left there.
+plumbline::reports::ResultLog fresh_log(const std::filesystem::path& results, const char* name) {
+  std::filesystem::remove(results / (std::string(name) + ".jsonl"));
+  return {results, name};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
-  CLI::App app{"Benchmarks of Plumbline: shadow rays, sampling cost, speed against error"};
+  CLI::App app{
+      "Benchmarks of Plumbline: shadow rays, sampling cost, speed against error, allocation"};
   std::filesystem::path results;
+  std::string only;
   bool full = false;
   app.add_option("--results", results, "Folder for the JSON results")->required();
   app.add_flag("--full", full, "Everything, instead of the one-minute set");
+  app.add_option("--only", only, "One part")
+      ->check(CLI::IsMember({"shadow-rays", "speed-error", "sampling-cost", "allocation"}));
   CLI11_PARSE(app, argc, argv);
 
   std::filesystem::create_directories(results);
-  for (const char* old : {"shadow_rays.jsonl", "speed_error.jsonl"}) {
-    std::filesystem::remove(results / old);
+  const auto wanted = [&](const char* part) { return only.empty() || only == part; };
+  if (wanted("shadow-rays")) {
+    auto log = fresh_log(results, "shadow_rays");
+    plumbline::bench::measure_shadow_rays(log, full);
   }
-  plumbline::reports::ResultLog shadow_rays(results, "shadow_rays");
-  plumbline::bench::measure_shadow_rays(shadow_rays, full);
-  plumbline::reports::ResultLog speed_error(results, "speed_error");
-  plumbline::bench::measure_speed_against_error(speed_error, full);
-  measure_sampling_cost(results, full);
+  if (wanted("speed-error")) {
+    auto log = fresh_log(results, "speed_error");
+    plumbline::bench::measure_speed_against_error(log, full);
+  }
+  if (wanted("allocation")) {
+    auto log = fresh_log(results, "allocation");
+    plumbline::bench::measure_allocation(log, results, full);
+  }
+  if (wanted("sampling-cost")) measure_sampling_cost(results, full);
   return 0;
 } catch (const std::exception& error) {
   fmt::print(stderr, "plumbline_bench: {}\n", error.what());

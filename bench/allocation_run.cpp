@@ -1,0 +1,299 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <plumbline/renderer/render/exr.h>
+#include <plumbline/renderer/render/render.h>
+#include <plumbline/reports/render_record.h>
+#include "allocation.h"
+
+namespace plumbline::bench {
+namespace {
+
+using renderer::Allocation;
+using renderer::Scene;
+
+constexpr std::size_t kEqual = kIterationSamples / 2;
+constexpr auto kSamples = static_cast<double>(kIterations * kIterationSamples);
+constexpr double kNormal999 = 3.2905;  // half-width of a 99.9 % interval, in standard errors
+
+using Reference = std::vector<PixelIntegrals>;
+
+double variance(const PixelIntegrals& pixel, std::size_t k, VarianceOf of) {
+  switch (of) {
+    case VarianceOf::counts:
+      return pixel.count_variance(k);
+    case VarianceOf::mixture:
+      return pixel.mixture_variance(k);
+    case VarianceOf::optimal_weights:
+      return pixel.optimal_weights_variance(k);
+  }
+  return 0;
+}
+
+/// Variance of a pixel after `iterations`, whose samples all have the same weight.
+double variance_after(const PixelIntegrals& pixel, const std::uint8_t* shares,
+                      std::size_t iterations, VarianceOf of) {
+  double sum = 0;
+  for (std::size_t j = 0; j < iterations; ++j) sum += variance(pixel, shares[j], of);
+  return sum / static_cast<double>(iterations * iterations * kIterationSamples);
+}
+
+ImageError image_error(const Reference& reference, const Shares& shares, VarianceOf of) {
+  ImageError error;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const PixelIntegrals& pixel = reference[i];
+    const double v = variance_after(pixel, &shares[i * kIterations], kIterations, of);
+    error.mse += v;
+    error.mean_sd += std::sqrt(v);
+    error.rel_mse += v / (pixel.mean * pixel.mean + 0.01);
+  }
+  const auto pixels = static_cast<double>(reference.size());
+  return {error.mse / pixels, error.mean_sd / pixels, error.rel_mse / pixels};
+}
+
+std::vector<double> rmse_by_iteration(const Reference& reference, const Shares& shares,
+                                      VarianceOf of) {
+  std::vector<double> rmse;
+  for (std::size_t n = 1; n <= kIterations; ++n) {
+    double sum = 0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      sum += variance_after(reference[i], &shares[i * kIterations], n, of);
+    }
+    rmse.push_back(std::sqrt(sum / static_cast<double>(reference.size())));
+  }
+  return rmse;
+}
+
+double mean_share(const Shares& shares) {
+  double sum = 0;
+  for (const std::uint8_t k : shares) sum += k;
+  return sum / static_cast<double>(kIterationSamples * shares.size());
+}
+
+MethodRun method_run(const std::string& method, const Reference& reference, const Shares& shares,
+                     VarianceOf counts = VarianceOf::counts) {
+  // Optimal weights are the counts' only: they have no mixture whose variance would differ.
+  const VarianceOf mixture = counts == VarianceOf::counts ? VarianceOf::mixture : counts;
+  return {method, image_error(reference, shares, counts), image_error(reference, shares, mixture),
+          rmse_by_iteration(reference, shares, counts), mean_share(shares)};
+}
+
+/// The first iteration at `first`, the others at what each pixel is given.
+Shares fixed_shares(std::size_t pixels, std::size_t first,
+                    const std::function<std::size_t(std::size_t)>& of_pixel) {
+  Shares shares;
+  shares.reserve(pixels * kIterations);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    shares.push_back(static_cast<std::uint8_t>(first));
+    shares.insert(shares.end(), kIterations - 1, static_cast<std::uint8_t>(of_pixel(i)));
+  }
+  return shares;
+}
+
+std::size_t best_with_optimal_weights(const PixelIntegrals& pixel) {
+  std::size_t best = kEqual;
+  for (std::size_t k = kIterationSamples / 10; k <= kIterationSamples - kIterationSamples / 10;
+       ++k) {
+    if (pixel.optimal_weights_variance(k) < pixel.optimal_weights_variance(best)) best = k;
+  }
+  return best;
+}
+
+void write_map(const AllocationScene& scene, const Scene& built, const std::string& method,
+               const Shares& shares, const std::filesystem::path& directory) {
+  renderer::Image image;
+  image.width = built.camera().width();
+  image.height = built.camera().height();
+  for (std::size_t i = kIterations - 1; i < shares.size(); i += kIterations) {
+    const float share = static_cast<float>(shares[i]) / kIterationSamples;
+    image.pixels.push_back({share, share, share});
+  }
+  const auto stem = directory / fmt::format("{}-{}", scene.name, method);
+  reports::RenderRecord record;
+  record.scene = fmt::format("Share of BSDF samples, {}", scene.title);
+  record.strategy = method;
+  record.width = image.width;
+  record.height = image.height;
+  record.samples_per_pixel = kIterations * kIterationSamples;
+  record.image = stem.string() + ".exr";
+  write_exr(record.image, image);
+  reports::write_render_record(stem.string() + ".json", record);
+}
+
+/// Errors of the rendered pixels against the reference, over all replicates.
+class CheckSums {
+ public:
+  /// @param judged  pixels to take into account
+  explicit CheckSums(const std::vector<bool>& judged) : judged_(judged) {}
+
+  /// @param own     reference of the same replicate, independent of all others
+  /// @param pooled  mean over all replicates
+  void add(const renderer::Film& film, const Shares& shares, const Reference& own,
+           const Reference& pooled, const std::vector<double>& pooled_error) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const double equal = own[i].count_variance(kEqual) / kSamples;
+      if (!judged_[i]) continue;
+      const double x = luminance(film.pixels()[i].mean);
+      const double z = (x - own[i].mean) / std::sqrt(equal);
+      sum_ += z;
+      sum_squares_ += z * z;
+      count_ += 1;
+      const double predicted =
+          variance_after(pooled[i], &shares[i * kIterations], kIterations, VarianceOf::counts);
+      sum += (x - pooled[i].mean) * (x - pooled[i].mean) / (predicted + pooled_error[i]);
+      count += 1;
+    }
+    squared_ratios_.push_back(sum / count);
+  }
+
+  RenderCheck result(const std::string& method) const {
+    const double mean = sum_ / count_;
+    const double error = std::sqrt((sum_squares_ / count_ - mean * mean) / count_);
+    return {method,
+            {mean, mean - kNormal999 * error, mean + kNormal999 * error},
+            mean_with_interval(squared_ratios_)};
+  }
+
+ private:
+  const std::vector<bool>& judged_;
+  double sum_ = 0, sum_squares_ = 0, count_ = 0;
+  std::vector<double> squared_ratios_;
+};
+
+class Experiment {
+ public:
+  Experiment(const AllocationScene& scene, const AllocationWork& work, double cost_ratio,
+             std::filesystem::path maps)
+      : description_(scene),
+        scene_(load(scene, work)),
+        cost_ratio_(cost_ratio),
+        maps_(std::move(maps)) {
+    for (int r = 0; r < work.replicates; ++r) {
+      references_.push_back(measure_integrals(scene_, work.reference_samples,
+                                              0x5eed + static_cast<std::uint64_t>(r)));
+    }
+    pool_references();
+  }
+
+  AllocationResults run() {
+    AllocationResults results;
+    const std::vector<bool> judged = judged_pixels();
+    std::vector<CheckSums> checks(std::size(renderer::kAllocations), CheckSums(judged));
+    for (std::size_t r = 0; r < references_.size(); ++r) {
+      results.replicates.push_back(known_methods(r));
+      for (std::size_t p = 0; p < checks.size(); ++p) {
+        results.replicates.back().push_back(policy_run(r, renderer::kAllocations[p], checks[p]));
+      }
+    }
+    for (std::size_t p = 0; p < checks.size(); ++p) {
+      results.checks.push_back(checks[p].result(std::string(name(renderer::kAllocations[p]))));
+    }
+    return results;
+  }
+
+ private:
+  void pool_references() {
+    const auto n = static_cast<double>(references_.size());
+    for (std::size_t i = 0; i < references_[0].size(); ++i) {
+      PixelIntegrals sum;
+      double squares = 0;
+      for (const Reference& reference : references_) {
+        sum += reference[i];
+        squares += reference[i].mean * reference[i].mean;
+      }
+      sum /= n;
+      pooled_.push_back(sum);
+      pooled_error_.push_back(std::max(squares / n - sum.mean * sum.mean, 0.0) / (n - 1));
+    }
+  }
+
+  /// Pixels whose variance the references are sure to know: none that sees a light, which is not
+  /// shared out, and none that has far less variance than a pixel beside it, of whose surface a
+  /// sliver may reach into it that no reference has hit.
+  std::vector<bool> judged_pixels() const {
+    const int width = scene_.camera().width(), height = scene_.camera().height();
+    std::vector<bool> result(pooled_.size());
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        double largest = 0, emission = 0;
+        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
+          for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
+            const PixelIntegrals& pixel = pooled_[static_cast<std::size_t>(v * width + u)];
+            largest = std::max(largest, pixel.count_variance(kEqual));
+            emission += pixel.emission;
+          }
+        }
+        const auto i = static_cast<std::size_t>(y * width + x);
+        const double variance = pooled_[i].count_variance(kEqual);
+        // The integrals are kept in float, which leaves 6e-8 μ² of rounding in their variance.
+        result[i] = emission == 0 && variance > 0.01 * largest &&
+                    variance > 1e-5 * pooled_[i].mean * pooled_[i].mean;
+      }
+    }
+    return result;
+  }
+
+  /// Methods that need no rendering. What is best is found in the references of the other
+  /// replicates: found in the one that judges it, it would owe part of its lead to chance.
+  std::vector<MethodRun> known_methods(std::size_t r) const {
+    const Reference& judge = references_[r];
+    const auto fixed = [&](std::size_t k) {
+      return fixed_shares(judge.size(), k, [k](std::size_t) { return k; });
+    };
+    const auto best = [&](const auto& choose) {
+      return fixed_shares(judge.size(), kEqual, [&, choose](std::size_t i) {
+        PixelIntegrals others;
+        for (std::size_t q = 0; q < references_.size(); ++q) {
+          if (q != r) others += references_[q][i];
+        }
+        others /= static_cast<double>(references_.size() - 1);
+        return choose(others);
+      });
+    };
+    const Shares optimum = best(best_share);
+    if (r == 0) write_map(description_, scene_, "optimum", optimum, maps_);
+    return {method_run("bsdf", judge, fixed(kIterationSamples)),
+            method_run("light", judge, fixed(0)), method_run("optimum", judge, optimum),
+            method_run("optimal weights, equal", judge, fixed(kEqual), VarianceOf::optimal_weights),
+            method_run("optimal weights, best share", judge, best(best_with_optimal_weights),
+                       VarianceOf::optimal_weights)};
+  }
+
+  MethodRun policy_run(std::size_t r, Allocation policy, CheckSums& check) const {
+    renderer::RenderOptions options;
+    options.path.max_depth = 2;
+    options.samples_per_pixel = static_cast<std::uint32_t>(kSamples);
+    options.seed = r + 1;
+    options.allocation = {.policy = policy, .iterations = kIterations, .cost_ratio = cost_ratio_};
+    const renderer::RenderResult result = render(scene_, options);
+    const Shares shares(result.bsdf_counts.begin(), result.bsdf_counts.end());
+    const std::string method(name(policy));
+    if (r == 0) write_map(description_, scene_, method, shares, maps_);
+    check.add(result.film, shares, references_[r], pooled_, pooled_error_);
+    return method_run(method, references_[r], shares);
+  }
+
+  AllocationScene description_;
+  Scene scene_;
+  double cost_ratio_;
+  std::filesystem::path maps_;
+  std::vector<Reference> references_;
+  Reference pooled_;
+  std::vector<double> pooled_error_;  // variance of its means
+};
+
+}  // namespace
+
+AllocationResults run_allocation(const AllocationScene& scene, const AllocationWork& work,
+                                 double cost_ratio, const std::filesystem::path& maps) {
+  std::filesystem::create_directories(maps);
+  return Experiment(scene, work, cost_ratio, maps).run();
+}
+
+}  // namespace plumbline::bench
