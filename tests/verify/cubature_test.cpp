@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <plumbline/verify/sampling_pair.h>
 
 #include "binned_pair.h"
 #include "cubature.h"
+#include "mass_balance.h"
 
 namespace plumbline::verify {
 namespace {
@@ -147,6 +149,41 @@ TEST(BinIntegrals, GiveEachBinAboutTheSameMass) {
     far_off += mass * 4096 < 0.2 || mass * 4096 > 5 ? 1 : 0;
   }
   EXPECT_LT(far_off, 41) << "more than 1 % of the bins";
+}
+
+/// A pair of which only the rejected set matters.
+SamplingPair rejecting(std::function<bool(double, double)> rejects) {
+  SamplingPair pair;
+  pair.name = "rejecting";
+  pair.domain = Domain::sphere();
+  pair.sample = [rejects = std::move(rejects)](const Uniforms& u) -> std::optional<PairSample> {
+    if (rejects(u[0], u[1])) return std::nullopt;
+    return PairSample{{0, 0, 1}, kNotApplicable, 0, {}};
+  };
+  return pair;
+}
+
+/// What GGX rejects at 89.9°: a band at the end of the second number, and a tongue at one azimuth
+/// that is thinner than the steps along a line.
+TEST(RejectedShare, CountsATongueThinnerThanTheStepsOfTheLines) {
+  const double width = 2e-3, base = 0.98, tilt = 0.05;
+  const SamplingPair pair = rejecting([=](double first, double second) {
+    const double along = (second - base) / (1 - base);
+    const double middle = 0.6113 + tilt * (second - base);
+    return second > 1 - 1e-4 || (along > 0 && std::abs(first - middle) < width / 2 * along);
+  });
+  // The tongue is a triangle; its last 1e-4 lies in the band.
+  const double tongue = width * (1 - base) / 2 - width * 1e-4 * (1 - 1e-4 / (1 - base) / 2);
+  const RejectedShare share = measure_rejected(pair, 1);
+  EXPECT_TRUE(share.measured);
+  EXPECT_NEAR(share.value, 1e-4 + tongue, 2e-6);
+}
+
+TEST(RejectedShare, IsExactForBandsAndNothing) {
+  const auto value = [](const SamplingPair& pair) { return measure_rejected(pair, 1).value; };
+  EXPECT_EQ(value(rejecting([](double, double) { return false; })), 0);
+  EXPECT_NEAR(value(rejecting([](double, double) { return true; })), 1, 1e-12);
+  EXPECT_NEAR(value(rejecting([](double first, double) { return first < 0.3; })), 0.3, 1e-12);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options)
   results.push_back(std::move(jacobian.result));
 
   BinnedPair binned(pair, options.finest_bins, options.mass_tolerance / 2, options.seed);
-  const RejectedShare rejected = measure_rejected(pair);
+  const RejectedShare rejected = measure_rejected(pair, options.seed);
   CheckResult chi_square = run_chi_square(options, binned, rejected);
   results.push_back(judge_integral(options, binned, rejected));
   if (chi_square.verdict == Verdict::fail) cause.consider(pair, bin_evidence(binned));

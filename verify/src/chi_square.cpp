@@ -194,7 +194,7 @@ CheckResult check_chi_square(const SamplingPair& pair, const ContractOptions& op
                                 "': needs at least 2 bins and a positive deviation to exclude");
   }
   BinnedPair binned(pair, options.finest_bins, options.mass_tolerance / 2, options.seed);
-  return run_chi_square(options, binned, measure_rejected(pair));
+  return run_chi_square(options, binned, measure_rejected(pair, options.seed));
 }
 
 }  // namespace plumbline::verify

@@ -59,7 +59,7 @@ CheckResult judge_integral(const ContractOptions& options, const BinnedPair& bin
 CheckResult check_integral(const SamplingPair& pair, const ContractOptions& options) {
   BinnedPair binned(pair, options.finest_bins, options.mass_tolerance / 2, options.seed);
   binned.draw(kProbes);
-  return judge_integral(options, binned, measure_rejected(pair));
+  return judge_integral(options, binned, measure_rejected(pair, options.seed));
 }
 
 }  // namespace plumbline::verify

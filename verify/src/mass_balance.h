@@ -24,8 +24,11 @@ struct MassBalance {
   double expected_rejected(double tolerance) const;
 };
 
-/// Area of the set of u that `sample` rejects, lobe by lobe where there are lobes. Not measured for pairs of other than two numbers.
-RejectedShare measure_rejected(const SamplingPair& pair);
+/// Area of the set of u that `sample` rejects, lobe by lobe where there are lobes. Not measured for
+/// pairs of other than two numbers.
+///
+/// @param seed  of the random numbers that show where to look
+RejectedShare measure_rejected(const SamplingPair& pair, std::uint64_t seed);
 
 /// @param measured  by measure_rejected
 /// @param level     two-sided, for the error of a counted share
