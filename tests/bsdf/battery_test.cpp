@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 #include <plumbline_tests/support.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -36,24 +39,44 @@ struct View {
   verify::Vec3 wo;
 };
 
-/// Both faces at random azimuths: at night at all of the angles.
-std::vector<View> views(const std::string& subject) {
-  verify::Random random(check_seed(subject));
+constexpr std::array kAngles{0.0, 60.0, 80.0, 88.0, 89.9};
+
+/// All of the angles at random azimuths: at night from both faces, in the gate from one face each,
+/// where faces take turns from angle to angle and from example to example.
+std::vector<View> views(const Example& example, std::size_t position) {
+  verify::Random random(check_seed(example.name));
   std::vector<View> all;
-  const std::vector<double> angles =
-      nightly() ? std::vector<double>{0, 60, 80, 88, 89.9} : std::vector<double>{60, 88};
-  for (const double degrees : angles) {
-    const double theta = degrees * std::numbers::pi / 180;
+  for (std::size_t k = 0; k < kAngles.size(); ++k) {
+    const double theta = kAngles[k] * std::numbers::pi / 180;
     for (const bool front : {true, false}) {
       const double phi = 2 * std::numbers::pi * random.uniform();
-      const std::string angle =
-          degrees == 89.9 ? "89.9" : std::to_string(static_cast<int>(degrees));
-      all.push_back({(front ? "/front " : "/back ") + angle,
+      if (!nightly() && front != ((k + position) % 2 == 0)) continue;
+      std::ostringstream name;
+      name << (front ? "/front " : "/back ") << kAngles[k];
+      all.push_back({name.str(),
                      {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                       front ? std::cos(theta) : -std::cos(theta)}});
     }
   }
   return all;
+}
+
+/// Calls `check(example, view)` for every example of one BSDF and every view of it.
+template <class B, class Check>
+void for_each_view(const Check& check) {
+  const std::vector<Example> examples = examples_of<B>();
+  for (std::size_t i = 0; i < examples.size(); ++i) {
+    for (const View& view : views(examples[i], i)) check(examples[i], view);
+  }
+}
+
+/// Densities of which cubature in double knows the mass no better than to 6e-5 or so, seen from
+/// 0.1° above the surface. There the sum may stay undecided; it must not be refuted.
+bool beyond_cubature(const std::string& name) {
+  // A ridge 1e-4 wide that bends through the whole hemisphere, and a refracted lobe that is a
+  // thousand times as wide as it is high, cut off at the critical angle 17 of its widths away.
+  return name == "GgxConductor/alpha 1e-4, 1/front 89.9" ||
+         name == "GgxDielectric/eta 1.5 alpha 1e-4/front 89.9";
 }
 
 template <class B>
@@ -62,32 +85,32 @@ class Battery : public testing::Test {};
 TYPED_TEST_SUITE(Battery, BsdfTypes, );
 
 TYPED_TEST(Battery, SamplePdfAndEvalAgreePointByPoint) {
-  for (const Example& example : examples_of<TypeParam>()) {
+  for_each_view<TypeParam>([](const Example& example, const View& view) {
     const verify::ErasedBsdf bsdf = in_double(example);
-    for (const View& view : views(example.name)) {
-      const std::string name = example.name + view.name;
-      const verify::BsdfOptions options = options_for(example, name + "/pointwise");
-      const verify::SamplingPair pair = verify::bsdf_pair(name, bsdf, view.wo, options);
-      for (const verify::CheckResult& result : verify::check_pointwise(pair, options.contract)) {
-        expect_verdict(result);
-      }
-      if (example.bsdf.parts().atoms) {
-        expect_verdict(verify::check_atoms(name, bsdf, view.wo, options));
-      }
+    const std::string name = example.name + view.name;
+    const verify::BsdfOptions options = options_for(example, name + "/pointwise");
+    const verify::SamplingPair pair = verify::bsdf_pair(name, bsdf, view.wo, options);
+    for (const verify::CheckResult& result : verify::check_pointwise(pair, options.contract)) {
+      expect_verdict(result);
     }
-  }
+    if (example.bsdf.parts().atoms) {
+      expect_verdict(verify::check_atoms(name, bsdf, view.wo, options));
+    }
+  });
 }
 
 TYPED_TEST(Battery, PdfAtomsAndRejectedSamplesSumToOne) {
-  for (const Example& example : examples_of<TypeParam>()) {
+  for_each_view<TypeParam>([](const Example& example, const View& view) {
+    const std::string name = example.name + view.name;
+    const verify::BsdfOptions options = options_for(example, name + "/integral");
     const verify::ErasedBsdf bsdf = in_double(example);
-    for (const View& view : views(example.name)) {
-      const std::string name = example.name + view.name;
-      const verify::BsdfOptions options = options_for(example, name + "/integral");
-      expect_verdict(verify::check_integral(verify::bsdf_pair(name, bsdf, view.wo, options),
-                                            options.contract));
+    verify::CheckResult result =
+        verify::check_integral(verify::bsdf_pair(name, bsdf, view.wo, options), options.contract);
+    if (beyond_cubature(name) && result.verdict == verify::Verdict::inconclusive) {
+      result.expected = verify::Verdict::inconclusive;
     }
-  }
+    expect_verdict(result);
+  });
 }
 
 TYPED_TEST(Battery, IsReciprocal) {
@@ -98,17 +121,15 @@ TYPED_TEST(Battery, IsReciprocal) {
 }
 
 TYPED_TEST(Battery, EvalHasTheAlbedoByQuadrature) {
-  for (const Example& example : examples_of<TypeParam>()) {
-    for (const View& view : views(example.name)) {
-      const std::string name = example.name + view.name;
-      verify::BsdfOptions options = options_for(example, name + "/energy");
-      const double albedo = known_albedo(example, {view.wo[0], view.wo[1], view.wo[2]}, 0);
-      EXPECT_LE(albedo, 1 + 1e-6) << name;
-      options.albedo = [&](const verify::Vec3&) { return albedo; };
-      options.energy_tolerance = albedo_tolerance(example);
-      expect_verdict(verify::check_energy(name, in_double(example), view.wo, options));
-    }
-  }
+  for_each_view<TypeParam>([](const Example& example, const View& view) {
+    const std::string name = example.name + view.name;
+    verify::BsdfOptions options = options_for(example, name + "/energy");
+    const double albedo = known_albedo(example, {view.wo[0], view.wo[1], view.wo[2]}, 0);
+    EXPECT_LE(albedo, 1 + 1e-6) << name;
+    options.albedo = [&](const verify::Vec3&) { return albedo; };
+    options.energy_tolerance = albedo_tolerance(example);
+    expect_verdict(verify::check_energy(name, in_double(example), view.wo, options));
+  });
 }
 
 }  // namespace
