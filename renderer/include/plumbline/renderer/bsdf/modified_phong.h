@@ -42,8 +42,8 @@ struct ModifiedPhong {
   std::optional<BsdfSample<T>> sample(const Vec3<T>& wo, const Vec2<T>& u) const {
     if (!(wo.z > T(0))) return std::nullopt;
     const T log_cos = log_1_plus(T(-u.y)) / (T(exponent) + T(1));
-    const T sin_alpha = safe_sqrt(T(-exp_minus_1(T(T(2) * log_cos))));
-    const T cos_alpha = T(1) + exp_minus_1(log_cos);
+    const T cos_minus_1 = exp_minus_1(log_cos), cos_alpha = T(1) + cos_minus_1;
+    const T sin_alpha = safe_sqrt(T(-cos_minus_1 * (T(1) + cos_alpha)));
     const SinCos<T> phi = sin_cos_turns(u.x);
     const Vec3<T> wi =
         Frame<T>(mirror(wo)).to_world({T(sin_alpha * phi.cos), T(sin_alpha * phi.sin), cos_alpha});
@@ -51,27 +51,26 @@ struct ModifiedPhong {
     // f cosθi/pdf_w: the lobe cancels.
     const T scale = (T(exponent) + T(2)) / (T(exponent) + T(1));
     return BsdfSample<T>{
-        .wi = wi, .weight = rgb_cast<T>(reflectance) * T(scale * wi.z), .pdf_w = pdf(wo, wi)};
+        .wi = wi, .weight = rgb_cast<T>(reflectance) * T(scale * wi.z), .pdf_w = density(log_cos)};
   }
 
   /// @return pdf_w [1/sr] of `sample(wo, u)`: (n + 1)/(2π) cosⁿα above the horizon
   template <class T>
   T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
     if (!(wo.z > T(0) && wi.z > T(0))) return T(0);
-    return (T(exponent) + T(1)) / (T(2) * pi<T>()) * lobe(wo, wi);
+    // By way of 1 − cosα = |wi − r|²/2 for unit vectors: a cosine in float is wrong by 6e-8, which
+    // n = 1e6 would turn into 6 %.
+    const T one_minus_cos = length_squared(wi - mirror(wo)) / T(2);
+    if (!(one_minus_cos < T(1))) return T(0);  // behind the lobe, also where n is even
+    return density(log_1_plus(T(-one_minus_cos)));
   }
 
  private:
-  /// cosⁿα; 0 behind the lobe, also where n is even.
-  ///
-  /// By way of 1 − cosα = |wi − r|²/2 for unit vectors: a cosine in float is wrong by 6e-8, which n
-  /// = 1e6 would turn into 6 %.
+  /// pdf_w by ln cosα.
   template <class T>
-  T lobe(const Vec3<T>& wo, const Vec3<T>& wi) const {
+  T density(const T& log_cos) const {
     using std::exp;
-    const T one_minus_cos = length_squared(wi - mirror(wo)) / T(2);
-    if (!(one_minus_cos < T(1))) return T(0);
-    return exp(T(T(exponent) * log_1_plus(T(-one_minus_cos))));
+    return (T(exponent) + T(1)) * (T(0.5) / pi<T>()) * exp(T(T(exponent) * log_cos));
   }
 };
 

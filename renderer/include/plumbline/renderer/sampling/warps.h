@@ -12,10 +12,10 @@ namespace plumbline::renderer {
 /// @return unit vector, z ≥ 0
 template <class T>
 Vec3<T> square_to_cosine_hemisphere(const Vec2<T>& u) {
-  using std::cos, std::sin, std::sqrt;
+  using std::sqrt;
   const T radius = sqrt(u.x);
-  const T phi = T(2) * pi<T>() * u.y;
-  return {T(radius * cos(phi)), T(radius * sin(phi)), safe_sqrt(T(T(1) - u.x))};
+  const SinCos<T> phi = sin_cos_turns(u.y);
+  return {T(radius * phi.cos), T(radius * phi.sin), safe_sqrt(T(T(1) - u.x))};
 }
 
 /// @return pdf_w [1/sr] = cosθ/π; 0 below the horizon
