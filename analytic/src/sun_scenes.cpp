@@ -13,6 +13,7 @@ namespace plumbline::analytic {
 namespace {
 
 constexpr Vec3 kUp{0, 0, 1};
+constexpr double kSunHalfAngle = 0.2665 * std::numbers::pi / 180;
 
 /// The wall of sidewalk.xml: in the plane x = -1, |y| ≤ 2, up to z = 3.
 const Polygon kWall{{-1, -2, 0}, {-1, 2, 0}, {-1, 2, 3}, {-1, -2, 3}};
@@ -40,9 +41,8 @@ std::unique_ptr<PixelOracle> make_sidewalk(const OracleInput& input) {
   const double reflected = reflected_radiance(input);
   const double sun = parameter(input, "sun");
   require(sun >= 0 && sun < 1e300, "sun must be finite and not negative");
-  const double half_angle = 0.2665 * std::numbers::pi / 180;
   const Vec3 to_sun = normalize({-parameter(input, "sun_x"), 0.2, 1});
-  const double sine = std::sin(half_angle);
+  const double sine = std::sin(kSunHalfAngle);
   const double sunlight = std::numbers::pi * sine * sine * to_sun.z * sun;
   const double sky = parameter(input, "radiance");
   require(sky > 0, "the sky must not be black");
@@ -50,7 +50,7 @@ std::unique_ptr<PixelOracle> make_sidewalk(const OracleInput& input) {
   const auto seen = [&](double x, double y) {
     const Vec3 d = input.camera.direction(x, y);
     return sun_behind_wall(input.camera.origin + d * (-input.camera.origin.z / d.z), to_sun,
-                           half_angle);
+                           kSunHalfAngle);
   };
   const Sun place = seen(0, 0);
   require(place != Sun::partly && place == seen(w, 0) && place == seen(0, h) && place == seen(w, h),
@@ -77,9 +77,16 @@ KnownScene sidewalk() {
       {"albedo", 0.5, "reflectance of the sidewalk [1], 0 to 1"}};
   constexpr std::string_view kTooSmall =
       "directions that know nothing of the sun find it once in 1e5 tries";
-  scene.expectations = expect_pass_but_for({{Strategy::bsdf, Expected::hopeless, kTooSmall},
-                                            {Strategy::uniform, Expected::hopeless, kTooSmall},
-                                            {Strategy::average, Expected::hopeless, kTooSmall}});
+  // A direction from the BSDF meets the sun with P = sin²σ cosθ, and then counts albedo · Lsun =
+  // 1e4: beside P · 1e8 all other variance is small. One uniform on the hemisphere meets it with
+  // 1 − cosσ and counts 2 albedo cosθ Lsun; half of each of two techniques has a quarter of it.
+  const double sine = std::sin(kSunHalfAngle), cosine = 1 / std::sqrt(1.29);
+  const double bsdf = 1e8 * sine * sine * cosine;
+  const double uniform = 4e8 * cosine * cosine * sine * sine / (1 + std::cos(kSunHalfAngle));
+  scene.expectations =
+      expect_pass_but_for({{Strategy::bsdf, Expected::hopeless, kTooSmall, bsdf},
+                           {Strategy::uniform, Expected::hopeless, kTooSmall, uniform},
+                           {Strategy::average, Expected::hopeless, kTooSmall, bsdf / 4}});
   constexpr std::string_view kHidden = "the wall hides the sun that these cannot find";
   scene.variants = {{"shade",
                      {{"sun_x", 0.8}},

@@ -80,14 +80,16 @@ LoadedScene load(const analytic::KnownScene& known, const analytic::Variant* var
   return {std::move(description), std::move(scene)};
 }
 
-analytic::Expected expected_verdict(const Case& c) {
+const analytic::Expectation& expectation(const Case& c) {
   for (const analytic::Strategy strategy : analytic::kStrategies) {
     if (analytic::to_string(strategy) == name(c.way.path.strategy)) {
-      return c.scene->expectation(strategy, c.variant).verdict;
+      return c.scene->expectation(strategy, c.variant);
     }
   }
   throw std::logic_error("no expectation for " + c.subject());
 }
+
+analytic::Expected expected_verdict(const Case& c) { return expectation(c).verdict; }
 
 verify::Verdict to_verify(analytic::Expected expected) {
   switch (expected) {
@@ -125,6 +127,8 @@ TEST_P(KnownAnswer, GivesTheExpectedVerdict) {
   options.expected = to_verify(expected);
   if (expected == analytic::Expected::infinite_variance) {
     options.exact_variance = std::numeric_limits<double>::infinity();
+  } else if (expectation(c).variance > 0 && c.way.sampler == renderer::SamplerType::independent) {
+    options.exact_variance = expectation(c).variance;
   }
   // A check that cannot decide would only burn the time up to its cap.
   if (options.expected == verify::Verdict::inconclusive) options.max_samples = 1 << 20;

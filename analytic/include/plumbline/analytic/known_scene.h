@@ -35,6 +35,9 @@ struct Expectation {
   Strategy strategy = Strategy::mis;
   Expected verdict = Expected::pass;
   std::string_view reason;  ///< one sentence; empty where a pass is expected
+  /// Of one independent sample, where a closed form gives it; 0 where not. A light that samples
+  /// seldom hit does not show in theirs.
+  double variance = 0;
 };
 
 /// A <default> of the scene file with the value it has there.
