@@ -122,6 +122,14 @@ TEST(MeanCheck, WaitsWhileAllSamplesMissTheLargerPartOfTheAnswer) {
   const auto flat_sky = [](Random& r) { return r.uniform() < 1e-5 ? 1e6 : 0.5; };
   o.subject = "mean/sun not hit yet, constant sky";
   for (int i = 0; i < 20; ++i, ++o.seed) expect_verdict(run(o, flat_sky));
+  // Half of the answer in each of two techniques, of which one has been seen.
+  o = options("mean/half not hit yet", 1);
+  o.expected = Verdict::inconclusive;
+  o.max_samples = 1 << 18;
+  const auto half_seen = [](Random& r) {
+    return r.uniform() < 1e-7 ? 5e6 : 0.5 + 1e-5 * r.uniform();
+  };
+  for (int i = 0; i < 20; ++i, ++o.seed) expect_verdict(run(o, half_seen));
   // Without a sun a million samples show it, and a smaller part is missed at once.
   o = options("mean/no sun", 10.5);
   o.expected = Verdict::fail;

@@ -81,7 +81,7 @@ struct MeanOptions {
 /// for a pass, and are what a fail must exceed. All zeros may be a rare event instead: they pass
 /// from 20,000 samples on and fail from 2^20 on, or, with an exact variance, as soon as they are
 /// too improbable under it. The same holds where all samples lie nearer to 0 than the answer and
-/// their mean at less than half of it: what is missing may be light that none of them has hit.
+/// their mean below 0.55 of it: what is missing may be light that none of them has hit.
 ///
 /// @source Hall 1992 (J. R. Stat. Soc. B 54:1), transformation g of Section 2 · two one-sided
 /// tests:
