@@ -47,7 +47,7 @@ std::vector<Case> all_cases() {
       cases.push_back({&scene, nullptr, way});
     }
     for (const analytic::Variant& variant : scene.variants) {
-      for (const Way& way : covering_ways()) {
+      for (const Way& way : nightly() ? covering_ways() : representative_ways()) {
         cases.push_back({&scene, &variant, way});
       }
     }
