@@ -9,8 +9,7 @@ plumbline::verify::CheckResult check(double scale) {
   using Direction = std::array<double, 3>;
   constexpr double kPi = 3.14159265358979323846;
   return plumbline::verify::check_chi_square<Direction>(
-      "cosine",
-      [=](const Direction& w) { return w[2] > 0 ? scale * w[2] / kPi : 0.0; },
+      "cosine", [=](const Direction& w) { return w[2] > 0 ? scale * w[2] / kPi : 0.0; },
       [=](double u, double v) {
         const double radius = std::sqrt(u);
         return Direction{radius * std::cos(2 * kPi * v), radius * std::sin(2 * kPi * v),

@@ -34,7 +34,8 @@ struct VarianceRatioOptions {
 /// is `pass` when the interval is finite and the tail does not decide.
 ///
 /// @throws std::invalid_argument for fewer than 16 batches or unequally many
-/// @source Miller 1974 (jackknife of log variances) · Hall 1992 (J. R. Stat. Soc. B 54:1), Section 2
+/// @source Miller 1974 (jackknife of log variances) · Hall 1992 (J. R. Stat. Soc. B 54:1), Section
+/// 2
 CheckResult check_variance_ratio(const VarianceRatioOptions& options, std::span<const Moments> a,
                                  std::span<const Moments> b);
 
