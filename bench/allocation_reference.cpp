@@ -36,7 +36,7 @@ class ShiftedLattice {
   }
 
   Vec2f pair(std::size_t i) const { return {unit(2 * i), unit(2 * i + 1)}; }
-  float unit(std::size_t i) const { return static_cast<float>(point_[i] >> 8) * 0x1p-24f; }
+  float unit(std::size_t i) const { return renderer::to_unit(point_[i]); }
 
  private:
   static constexpr std::size_t kDimensions = 5;
@@ -93,8 +93,7 @@ PixelIntegrals measure_pixel(const renderer::Scene& scene, int x, int y, std::ui
     ShiftedLattice lattice(random);
     for (std::uint32_t s = 0; s < samples / 2; ++s, lattice.advance()) {
       const Vec2f film = lattice.pair(0);
-      const renderer::Ray ray =
-          scene.camera().ray(static_cast<float>(x) + film.x, static_cast<float>(y) + film.y);
+      const renderer::Ray ray = scene.camera().ray(x, y, film);
       sums.add(technique, sample_direct_light(scene, ray, technique, lattice.unit(4),
                                               lattice.pair(1), counters));
     }

@@ -57,7 +57,7 @@ std::vector<Ray> record_shadow_rays(const Scene& scene) {
       const renderer::Vec3f direction =
           renderer::Frame<float>(hit->normal)
               .to_world(square_to_cosine_hemisphere(random.next_2d()));
-      ray = {hit->origin_towards(direction), direction};
+      ray = hit->ray_along(direction);
     }
     // A scene without shadow rays would never end.
     if (sample > 100 * kRays) break;

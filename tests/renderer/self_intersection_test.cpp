@@ -34,7 +34,7 @@ Outcome start_rays(const Scene& scene, float camera_distance, const Target& targ
     const Vec3f side = dot(hit->normal, origin - hit->position) > 0 ? hit->normal : -hit->normal;
     Vec3f leaving = random_direction(random);
     if (dot(leaving, side) < 0) leaving = -leaving;
-    outcome.false_hits += scene.occluded({hit->origin_towards(leaving), leaving});
+    outcome.false_hits += scene.occluded(hit->ray_along(leaving));
     const Vec3f start = hit->origin_towards(side);
     outcome.leaks += !scene.occluded({start, -side});
   }
@@ -118,7 +118,7 @@ TEST(SelfIntersection, ThinGapUnderALargeFloorStaysClosed) {
     ASSERT_TRUE(floor);
     const Vec3f up = square_to_cosine_hemisphere(random.next_2d());
     const Vec3f direction{up.x, up.z, up.y};
-    ASSERT_TRUE(gap.occluded({floor->origin_towards(direction), direction}));
+    ASSERT_TRUE(gap.occluded(floor->ray_along(direction)));
   }
 }
 

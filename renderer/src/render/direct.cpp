@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "vertex.h"
+
 namespace plumbline::renderer {
 namespace {
 
@@ -16,69 +18,54 @@ class DirectLight {
     DirectSample result;
     result.emission = emission(hit, ray.direction).radiance;
     if (!hit) return result;
-    const Surface surface{*hit, scene_.bsdf(hit->bsdf), Frame<float>(hit->normal), -ray.direction};
+    const Vertex vertex(scene_, *hit, ray.direction);
     if (technique == kBsdfTechnique) {
-      sample_bsdf(surface, u, result);
-    } else if (surface.bsdf.parts().density) {
-      sample_light(surface, u_light, u, result);
+      sample_bsdf(vertex, u, result);
+    } else if (vertex.bsdf.parts().density) {
+      sample_light(vertex, u_light, u, result);
     }
     return result;
   }
 
  private:
-  struct Surface {
-    const SurfaceHit& hit;
-    BsdfRef bsdf;
-    Frame<float> frame;
-    Vec3f wo;  // world space
-  };
-
   struct Emission {
     std::uint32_t light = kNoLight;
     Rgbf radiance;
   };
 
-  /// Of what a ray ends on, if it shows its emitting side.
   Emission emission(const std::optional<SurfaceHit>& hit, const Vec3f& direction) const {
-    const std::uint32_t light = !hit                              ? scene_.environment()
-                                : dot(hit->normal, direction) < 0 ? hit->light
-                                                                  : kNoLight;
+    const std::uint32_t light = light_seen(scene_, hit, direction);
     if (light == kNoLight) return {};
     return {light, renderer::radiance(scene_.lights()[light], direction)};
   }
 
-  void sample_bsdf(const Surface& surface, const Vec2f& u, DirectSample& result) {
-    const auto next = surface.bsdf.sample(surface.frame.to_local(surface.wo), u);
+  void sample_bsdf(const Vertex& vertex, const Vec2f& u, DirectSample& result) {
+    const auto next = vertex.bsdf.sample(vertex.wo, u);
     if (!next) ++counters_.rejected;
     if (!next || is_black(next->weight)) return;
-    const Vec3f direction = surface.frame.to_world(next->wi);
     ++counters_.bounce_rays;
-    const auto hit = scene_.intersect({surface.hit.origin_towards(direction), direction});
-    const Emission found = emission(hit, direction);
+    const Ray ray = vertex.ray_along(next->wi);
+    const Emission found = emission(scene_.intersect(ray), ray.direction);
     if (found.light == kNoLight) return;
     result.value = next->weight * found.radiance;
     result.pdf = next->is_atom() ? next->mass : next->pdf_w;
     if (next->is_atom()) return;  // no point on a light is chosen to lie just there
-    result.other_pdf = scene_.lights().pdf(found.light, surface.hit.position, direction);
+    result.other_pdf = scene_.lights().pdf(found.light, vertex.hit.position, ray.direction);
   }
 
-  void sample_light(const Surface& surface, float u_light, const Vec2f& u, DirectSample& result) {
-    const auto light = scene_.lights().sample(surface.hit.position, u_light, u);
+  void sample_light(const Vertex& vertex, float u_light, const Vec2f& u, DirectSample& result) {
+    const auto light = scene_.lights().sample(vertex.hit.position, u_light, u);
     if (!light) {
       ++counters_.rejected;
       return;
     }
-    const Vec3f wo = surface.frame.to_local(surface.wo);
-    const Vec3f wi = surface.frame.to_local(light->wi);
-    const Rgbf f = surface.bsdf.eval(wo, wi);
-    if (is_black(f)) return;
-    ++counters_.shadow_rays;
-    const Ray ray = shadow_ray(surface.hit, *light);
-    if (ray.t_max > 0 && scene_.occluded(ray)) return;
+    const Vec3f wi = vertex.frame.to_local(light->wi);
+    const BsdfValue<float> bsdf = vertex.bsdf.evaluate(vertex.wo, wi);
+    if (is_black(bsdf.f) || !is_visible(scene_, vertex.hit, *light, counters_)) return;
     result.pdf = light->is_atom() ? light->mass : light->pdf_w;
-    result.value = f * light->radiance * (std::abs(wi.z) / result.pdf);
+    result.value = bsdf.f * light->radiance * (std::abs(wi.z) / result.pdf);
     if (light->is_atom()) return;  // no direction of the BSDF finds it
-    result.other_pdf = surface.bsdf.pdf(wo, wi);
+    result.other_pdf = bsdf.pdf_w;
   }
 
   const Scene& scene_;

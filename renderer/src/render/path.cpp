@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "vertex.h"
+
 namespace plumbline::renderer {
 namespace {
 
@@ -46,15 +48,6 @@ Techniques choose_techniques(const PathOptions& options, int depth, Sampler& ran
   return {};
 }
 
-/// A surface point that light is gathered at.
-struct Vertex {
-  const SurfaceHit& hit;
-  BsdfRef bsdf;
-  Frame<float> frame;
-  Vec3f wo;   // local
-  Vec3f ref;  // what light densities refer to
-};
-
 /// What the weight of emission at the end of a BSDF ray depends on: the vertex behind it.
 struct Arrival {
   Techniques techniques;
@@ -79,7 +72,7 @@ class Path {
       result += throughput * emission(hit, ray.direction, arrival);
       if (!hit || !within(depth + 1)) break;
 
-      const Vertex vertex = vertex_at(*hit, -ray.direction);
+      const Vertex vertex(scene_, *hit, ray.direction);
       const BsdfParts& parts = vertex.bsdf.parts();
       const Techniques techniques = choose_techniques(options_, depth, random_);
       for (int i = 0; parts.density && i < techniques.draw_light; ++i) {
@@ -102,9 +95,8 @@ class Path {
       throughput = throughput * next->weight;
       radiance_scale *= next->radiance_scale;
       if (is_black(throughput) || !survives_roulette(depth, radiance_scale, throughput)) break;
-      const Vec3f direction = vertex.frame.to_world(next->wi);
-      arrival = Arrival{techniques, next->is_atom(), next->pdf_w, vertex.ref};
-      ray = {hit->origin_towards(direction), direction};
+      arrival = Arrival{techniques, next->is_atom(), next->pdf_w, hit->position};
+      ray = vertex.ray_along(next->wi);
     }
     return result;
   }
@@ -112,25 +104,24 @@ class Path {
  private:
   bool within(int depth) const { return options_.max_depth < 0 || depth <= options_.max_depth; }
 
-  Vertex vertex_at(const SurfaceHit& hit, const Vec3f& wo) const {
-    const Frame<float> frame(hit.normal);
-    return {hit, scene_.bsdf(hit.bsdf), frame, frame.to_local(wo), hit.position};
-  }
-
-  /// The light that a ray ends on, if it shows its emitting side.
-  std::uint32_t light_seen(const std::optional<SurfaceHit>& hit, const Vec3f& direction) const {
-    if (!hit) return scene_.environment();
-    return dot(hit->normal, direction) < 0 ? hit->light : kNoLight;
-  }
-
   /// Emission found by a ray, weighted against the light sample that could have found it.
   Rgbf emission(const std::optional<SurfaceHit>& hit, const Vec3f& direction,
                 const std::optional<Arrival>& arrival) const {
-    const std::uint32_t light = light_seen(hit, direction);
+    const std::uint32_t light = light_seen(scene_, hit, direction);
     if (light == kNoLight) return {};
     const Rgbf radiance = renderer::radiance(scene_.lights()[light], direction);
     return arrival ? radiance * bsdf_weight(*arrival, light, direction) : radiance;
   }
+
+  /// Emission found in a direction from a vertex.
+  Rgbf gather(const Vertex& vertex, const Vec3f& wi, const std::optional<Arrival>& arrival) {
+    ++counters_.bounce_rays;
+    const Ray ray = vertex.ray_along(wi);
+    return emission(scene_.intersect(ray), ray.direction, arrival);
+  }
+
+  /// The share of one of n samples that no other technique can draw.
+  float share(float n) const { return options_.strategy == Strategy::average ? 0.5f : 1 / n; }
 
   /// MIS weight of one sample of a technique over the number of its samples.
   float weight(float n, float pdf, float n_other, float pdf_other) const {
@@ -140,9 +131,7 @@ class Path {
 
   float bsdf_weight(const Arrival& arrival, std::uint32_t light, const Vec3f& direction) const {
     const Techniques& t = arrival.techniques;
-    if (arrival.by_atom) {
-      return options_.strategy == Strategy::average ? 0.5f : 1 / static_cast<float>(t.directions());
-    }
+    if (arrival.by_atom) return share(static_cast<float>(t.directions()));
     if (t.draw_bsdf == 0) return 0;
     const float pdf_light =
         t.n_light > 0 ? scene_.lights().pdf(light, arrival.ref, direction) : 0.0f;
@@ -156,27 +145,23 @@ class Path {
       ++counters_.rejected;
       return {};
     }
-    ++counters_.bounce_rays;
-    const Vec3f direction = vertex.frame.to_world(next->wi);
-    const auto hit = scene_.intersect({vertex.hit.origin_towards(direction), direction});
-    const Arrival arrival{techniques, next->is_atom(), next->pdf_w, vertex.ref};
-    return next->weight * emission(hit, direction, arrival);
+    return next->weight *
+           gather(vertex, next->wi,
+                  Arrival{techniques, next->is_atom(), next->pdf_w, vertex.hit.position});
   }
 
   /// Direct light by one point on a light.
   Rgbf light_estimate(const Vertex& vertex, const Techniques& t) {
-    const auto light = sample_light(vertex.ref);
+    const auto light = sample_light(vertex.hit.position);
     if (!light) {
       ++counters_.rejected;
       return {};
     }
     const Vec3f wi = vertex.frame.to_local(light->wi);
     const BsdfValue<float> bsdf = vertex.bsdf.evaluate(vertex.wo, wi);
-    if (is_black(bsdf.f) || !is_visible(vertex, *light)) return {};
+    if (is_black(bsdf.f) || !is_visible(scene_, vertex.hit, *light, counters_)) return {};
     if (light->is_atom()) {
-      // Nothing else can find it: no weight is shared.
-      const float w = options_.strategy == Strategy::average ? 0.5f : 1 / t.n_light;
-      return bsdf.f * light->radiance * (std::abs(wi.z) * w / light->mass);
+      return bsdf.f * light->radiance * (std::abs(wi.z) * share(t.n_light) / light->mass);
     }
     const float w = weight(t.n_light, light->pdf_w, t.n_bsdf, t.n_bsdf > 0 ? bsdf.pdf_w : 0.0f);
     return bsdf.f * light->radiance * (std::abs(wi.z) * w / light->pdf_w);
@@ -185,12 +170,6 @@ class Path {
   std::optional<LightSample<float>> sample_light(const Vec3f& ref) {
     const float u_light = scene_.lights().size() > 1 ? random_.next_1d() : 0.0f;
     return scene_.lights().sample(ref, u_light, random_.next_2d());
-  }
-
-  bool is_visible(const Vertex& vertex, const LightSample<float>& light) {
-    ++counters_.shadow_rays;
-    const Ray ray = shadow_ray(vertex.hit, light);
-    return !(ray.t_max > 0) || !scene_.occluded(ray);
   }
 
   /// Direct light by one direction uniform on the hemisphere that wo is in, or on the sphere where
@@ -204,10 +183,7 @@ class Path {
     if (vertex.wo.z < 0) wi.z = -wi.z;
     const Rgbf f = vertex.bsdf.eval(vertex.wo, wi);
     if (is_black(f)) return {};
-    ++counters_.bounce_rays;
-    const Vec3f direction = vertex.frame.to_world(wi);
-    const auto hit = scene_.intersect({vertex.hit.origin_towards(direction), direction});
-    return f * emission(hit, direction, std::nullopt) * (std::abs(wi.z) / pdf_w);
+    return f * gather(vertex, wi, std::nullopt) * (std::abs(wi.z) / pdf_w);
   }
 
   /// Ends paths at random and scales the survivors up, so that the mean stays. What counts is the

@@ -134,8 +134,8 @@ class Renderer {
 
   void render_pixel(int x, int y, std::uint32_t first_sample, std::uint32_t samples,
                     PathCounters& counters) {
-    PixelMoments& pixel = film_.at(x, y);
-    const auto index = static_cast<std::uint64_t>(&pixel - film_.pixels().data());
+    const std::size_t index = film_.index(x, y);
+    PixelMoments& pixel = film_.pixels()[index];
     const std::uint32_t replicates = dealt_.empty() ? 1 : options_.replicates;
     const std::span<PixelMoments> dealt =
         dealt_.empty() ? std::span<PixelMoments>()
@@ -144,8 +144,7 @@ class Renderer {
       Sampler random(options_.sampler, options_.seed, index * replicates + s % replicates,
                      s / replicates);
       const Vec2f jitter = random.next_2d();
-      const Ray ray =
-          scene_.camera().ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
+      const Ray ray = scene_.camera().ray(x, y, jitter);
       PixelMoments& moments = dealt.empty() ? pixel : dealt[s % replicates];
       moments.add(estimate_radiance(scene_, options_.path, ray, random, counters));
     }
@@ -155,15 +154,14 @@ class Renderer {
   }
 
   void allocate_pixel(int x, int y, PathCounters& counters) {
-    PixelMoments& pixel = film_.at(x, y);
-    const auto index = static_cast<std::uint64_t>(&pixel - film_.pixels().data());
+    const std::size_t index = film_.index(x, y);
+    PixelMoments& pixel = film_.pixels()[index];
     std::uint32_t* bsdf_counts = &bsdf_counts_[index * options_.allocation->iterations];
     Pcg32 random(options_.seed, index, 0);
     Rgbf emission;
     const auto draw = [&](std::size_t technique) {
       const Vec2f jitter = random.next_2d();
-      const Ray ray =
-          scene_.camera().ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
+      const Ray ray = scene_.camera().ray(x, y, jitter);
       const float u_light = random.next_1d();
       const DirectSample sample =
           sample_direct_light(scene_, ray, technique, u_light, random.next_2d(), counters);

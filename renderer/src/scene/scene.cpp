@@ -193,7 +193,7 @@ bool Scene::occluded(const Ray& ray) const { return geometry_->occluded(ray); }
 RTCSceneTy* Scene::embree_scene() const { return geometry_->embree_scene(); }
 
 Ray shadow_ray(const SurfaceHit& hit, const LightSample<float>& light) {
-  Ray ray{hit.origin_towards(light.wi), light.wi};
+  Ray ray = hit.ray_along(light.wi);
   if (std::isfinite(light.distance)) {
     const Vec3f end = hit.position + light.wi * light.distance;
     // One offset before the light, and the start is up to one offset nearer to it than the point

@@ -41,6 +41,12 @@ class Film {
   std::vector<PixelMoments>& pixels() { return pixels_; }
   const std::vector<PixelMoments>& pixels() const { return pixels_; }
 
+  /// Place of a pixel in pixels(): row by row, from the top.
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
   PixelMoments& at(int x, int y) { return pixels_[index(x, y)]; }
   const PixelMoments& at(int x, int y) const { return pixels_[index(x, y)]; }
 
@@ -55,11 +61,6 @@ class Film {
   double relative_error() const;
 
  private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(x);
-  }
-
   int width_, height_;
   std::vector<PixelMoments> pixels_;
 };

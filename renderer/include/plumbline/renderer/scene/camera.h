@@ -34,6 +34,11 @@ class Camera {
     return {origin_, normalize(forward_ + right_ * from_center_x + down_ * from_center_y)};
   }
 
+  /// @param offset  in the pixel, [0, 1)²
+  Ray ray(int pixel_x, int pixel_y, const Vec2f& offset) const {
+    return ray(static_cast<float>(pixel_x) + offset.x, static_cast<float>(pixel_y) + offset.y);
+  }
+
  private:
   int width_ = 0, height_ = 0;
   Vec3f origin_, forward_, right_, down_;

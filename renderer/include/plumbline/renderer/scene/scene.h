@@ -31,6 +31,8 @@ struct SurfaceHit {
   Vec3f origin_towards(const Vec3f& w) const {
     return position + normal * (dot(normal, w) >= 0 ? offset : -offset);
   }
+
+  Ray ray_along(const Vec3f& direction) const { return {origin_towards(direction), direction}; }
 };
 
 class SceneGeometry;
