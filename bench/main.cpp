@@ -9,6 +9,7 @@
 
 #include <plumbline/reports/results.h>
 #include "allocation.h"
+#include "equal_error.h"
 #include "shadow_rays.h"
 #include "speed_error.h"
 
@@ -41,30 +42,33 @@ plumbline::reports::ResultLog fresh_log(const std::filesystem::path& results, co
 
 int main(int argc, char** argv) try {
   CLI::App app{
-      "Benchmarks of Plumbline: shadow rays, sampling cost, speed against error, allocation"};
+      "Benchmarks of Plumbline: equal error, shadow rays, speed against error, allocation, "
+      "sampling "
+      "cost"};
   std::filesystem::path results;
   std::string only;
   bool full = false;
   app.add_option("--results", results, "Folder for the JSON results")->required();
   app.add_flag("--full", full, "Everything, instead of the one-minute set");
   app.add_option("--only", only, "One part")
-      ->check(CLI::IsMember({"shadow-rays", "speed-error", "sampling-cost", "allocation"}));
+      ->check(CLI::IsMember(
+          {"equal-error", "shadow-rays", "speed-error", "allocation", "sampling-cost"}));
   CLI11_PARSE(app, argc, argv);
 
   std::filesystem::create_directories(results);
+  using namespace plumbline::bench;
   const auto wanted = [&](const char* part) { return only.empty() || only == part; };
-  if (wanted("shadow-rays")) {
-    auto log = fresh_log(results, "shadow_rays");
-    plumbline::bench::measure_shadow_rays(log, full);
-  }
-  if (wanted("speed-error")) {
-    auto log = fresh_log(results, "speed_error");
-    plumbline::bench::measure_speed_against_error(log, full);
-  }
-  if (wanted("allocation")) {
-    auto log = fresh_log(results, "allocation");
-    plumbline::bench::measure_allocation(log, results, full);
-  }
+  const auto measure = [&](const char* part, const char* file, const auto& function) {
+    if (!wanted(part)) return;
+    auto log = fresh_log(results, file);
+    function(log, full);
+  };
+  measure("equal-error", "bars_equal_error", measure_equal_error);
+  measure("shadow-rays", "shadow_rays", measure_shadow_rays);
+  measure("speed-error", "speed_error", measure_speed_against_error);
+  measure("allocation", "allocation", [&results](plumbline::reports::ResultLog& log, bool all) {
+    measure_allocation(log, results, all);
+  });
   if (wanted("sampling-cost")) measure_sampling_cost(results, full);
   return 0;
 } catch (const std::exception& error) {

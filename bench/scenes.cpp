@@ -34,12 +34,23 @@ std::vector<double> reference_luminance(const std::string& name,
   options.samples_per_pixel = reference_spp;
   options.seed = 0x5eed;  // no replicate has it
   const renderer::RenderResult result = render(renderer::Scene(description), options);
-  std::vector<double> luminances;
-  luminances.reserve(result.film.pixels().size());
-  for (const renderer::PixelMoments& pixel : result.film.pixels()) {
-    luminances.push_back(luminance(pixel.mean));
+  return luminances(result.film);
+}
+
+std::vector<double> luminances(const renderer::Film& film) {
+  std::vector<double> values;
+  values.reserve(film.pixels().size());
+  for (const renderer::PixelMoments& pixel : film.pixels()) values.push_back(luminance(pixel.mean));
+  return values;
+}
+
+double rel_mse(const std::vector<double>& image, const std::vector<double>& reference) {
+  double sum = 0;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const double difference = image[i] - reference[i];
+    sum += difference * difference / (reference[i] * reference[i] + 0.01);
   }
-  return luminances;
+  return sum / static_cast<double>(reference.size());
 }
 
 }  // namespace plumbline::bench

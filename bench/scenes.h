@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/renderer/render/film.h>
 #include <plumbline/renderer/scene/description.h>
 
 namespace plumbline::bench {
@@ -20,5 +21,11 @@ renderer::SceneDescription load_at_size(const std::string& name, int width, int 
 std::vector<double> reference_luminance(const std::string& name,
                                         const renderer::SceneDescription& description,
                                         std::uint32_t reference_spp);
+
+/// Row by row from the top.
+std::vector<double> luminances(const renderer::Film& film);
+
+/// Mean over pixels of (x − r)²/(r² + 0.01), both of luminance and of the same size.
+double rel_mse(const std::vector<double>& image, const std::vector<double>& reference);
 
 }  // namespace plumbline::bench

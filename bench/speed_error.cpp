@@ -27,16 +27,6 @@ struct Work {
   std::uint32_t reference_samples = 4096;
 };
 
-/// mean over pixels of (x − r)²/(r² + 0.01) on luminance
-double rel_mse(const renderer::Film& film, const std::vector<double>& reference) {
-  double sum = 0;
-  for (std::size_t i = 0; i < reference.size(); ++i) {
-    const double difference = luminance(film.pixels()[i].mean) - reference[i];
-    sum += difference * difference / (reference[i] * reference[i] + 0.01);
-  }
-  return sum / static_cast<double>(reference.size());
-}
-
 reports::SpeedPoint measure(const Scene& scene, renderer::RenderOptions options,
                             const std::vector<double>& reference, int replicates) {
   std::vector<double> errors;
@@ -45,7 +35,7 @@ reports::SpeedPoint measure(const Scene& scene, renderer::RenderOptions options,
   for (int i = 0; i < replicates; ++i) {
     options.seed = static_cast<std::uint64_t>(i) + 1;
     const renderer::RenderResult result = render(scene, options);
-    errors.push_back(rel_mse(result.film, reference));
+    errors.push_back(rel_mse(luminances(result.film), reference));
     seconds += result.seconds / replicates;
     rays += result.counters.camera_rays + result.counters.bounce_rays + result.counters.shadow_rays;
   }

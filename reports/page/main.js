@@ -69,6 +69,7 @@ function addEnvironment() {
 }
 
 addEnvironment();
+addBars();
 const checkTable = addChecks();
 addOverview((kind) => {
   checkTable?.showAll(kind);

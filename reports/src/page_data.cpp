@@ -143,6 +143,16 @@ Json speed_to_json(const std::vector<SpeedPoint>& points) {
   return scenes;
 }
 
+Json bars_to_json(const std::vector<Bar>& bars) {
+  Json list = Json::array();
+  for (const Bar& bar : bars) {
+    Json json = record_to_json(bar);
+    json["verdict"] = verdict(bar);
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 Json renders_to_json(const std::vector<RenderRecord>& renders) {
   Json list = Json::array();
   for (const RenderRecord& render : renders) list.push_back(with_exact_seed(render));
@@ -176,6 +186,7 @@ std::string page_data(const PageInput& input) {
                      {"renders", renders_to_json(results.renders)},
                      {"speed", speed_to_json(results.speed)},
                      {"ray_costs", list_to_json(results.ray_costs)},
+                     {"bars", bars_to_json(results.bars)},
                      {"stability", list_to_json(results.stability)},
                      {"figures", list_to_json(results.figures)},
                      {"tables", list_to_json(results.tables)}};

@@ -48,6 +48,8 @@ void add_document(Results& results, const std::string& text, const fs::path& dir
     results.speed.push_back(parse_speed_point(text));
   } else if (format == detail::kRayCostFormat) {
     results.ray_costs.push_back(parse_ray_cost(text));
+  } else if (format == detail::kBarFormat) {
+    results.bars.push_back(parse_bar(text));
   } else if (format == detail::kStabilityFormat) {
     results.stability.push_back(parse_stability_record(text));
   } else if (format == detail::kFigureFormat) {
@@ -91,8 +93,8 @@ void read_single(Results& results, const fs::path& file, const std::string& text
 
 bool holds_nothing(const Results& results) {
   return results.checks.empty() && results.renders.empty() && results.speed.empty() &&
-         results.ray_costs.empty() && results.stability.empty() && results.figures.empty() &&
-         results.tables.empty() && results.warnings.empty();
+         results.ray_costs.empty() && results.bars.empty() && results.stability.empty() &&
+         results.figures.empty() && results.tables.empty() && results.warnings.empty();
 }
 
 }  // namespace

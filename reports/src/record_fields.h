@@ -14,6 +14,7 @@ inline constexpr const char* kEnvironmentFormat = "plumbline.environment/1";
 inline constexpr const char* kRenderFormat = "plumbline.render/1";
 inline constexpr const char* kSpeedFormat = "plumbline.speed/1";
 inline constexpr const char* kRayCostFormat = "plumbline.ray_cost/1";
+inline constexpr const char* kBarFormat = "plumbline.bar/1";
 inline constexpr const char* kStabilityFormat = "plumbline.stability/1";
 inline constexpr const char* kFigureFormat = "plumbline.figure/1";
 inline constexpr const char* kTableFormat = "plumbline.table/1";
@@ -64,6 +65,20 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("ratio", r.ratio);
   visit("ratio_low", r.ratio_low);
   visit("ratio_high", r.ratio_high);
+}
+
+template <class Visitor, Is<Bar> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("name", r.name);
+  visit("unit", r.unit);
+  visit("at_least", r.at_least);
+  visit("limit", r.limit);
+  visit("measured", r.measured);
+  visit("low", r.low);
+  visit("high", r.high);
+  visit("indicative", r.indicative);
+  visit("comparison", r.comparison);
+  visit("note", r.note);
 }
 
 template <class Visitor, Is<StabilityRecord> Record>

@@ -62,6 +62,20 @@ RayCost parse_ray_cost(std::string_view json) {
   return detail::parse_document<RayCost>(detail::kRayCostFormat, json);
 }
 
+std::string to_json(const Bar& bar) { return detail::document(detail::kBarFormat, bar); }
+
+Bar parse_bar(std::string_view json) {
+  return detail::parse_document<Bar>(detail::kBarFormat, json);
+}
+
+std::string_view verdict(const Bar& bar) {
+  if (bar.indicative) return "indicative";
+  if (!(bar.low <= bar.measured && bar.measured <= bar.high)) return "open";
+  if (bar.at_least ? bar.low >= bar.limit : bar.high <= bar.limit) return "met";
+  const bool missed = bar.at_least ? bar.high < bar.limit : bar.low > bar.limit;
+  return missed ? "missed" : "open";
+}
+
 std::string to_json(const StabilityRecord& record) {
   return detail::document(detail::kStabilityFormat, record);
 }

@@ -38,6 +38,7 @@ TEST(Formats, EveryRecordSurvivesTheRoundTrip) {
   EXPECT_EQ(parse_render_record(to_json(sample_render())), sample_render());
   EXPECT_EQ(parse_speed_point(to_json(sample_speed_point())), sample_speed_point());
   EXPECT_EQ(parse_ray_cost(to_json(sample_ray_cost())), sample_ray_cost());
+  EXPECT_EQ(parse_bar(to_json(sample_bar())), sample_bar());
   EXPECT_EQ(parse_stability_record(to_json(sample_stability_record())), sample_stability_record());
   EXPECT_EQ(parse_figure(to_json(sample_figure())), sample_figure());
   EXPECT_EQ(reports::parse_table(to_json(sample_table())), sample_table());
@@ -86,6 +87,7 @@ TEST(Formats, EachStatesItsFormatFirstOnOneLine) {
       {to_json(sample_render()), "plumbline.render/1"},
       {to_json(sample_speed_point()), "plumbline.speed/1"},
       {to_json(sample_ray_cost()), "plumbline.ray_cost/1"},
+      {to_json(sample_bar()), "plumbline.bar/1"},
       {to_json(sample_stability_record()), "plumbline.stability/1"},
       {to_json(sample_figure()), "plumbline.figure/1"},
       {to_json(sample_table()), "plumbline.table/1"},
@@ -95,6 +97,27 @@ TEST(Formats, EachStatesItsFormatFirstOnOneLine) {
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
     EXPECT_EQ(Json::parse(text)["format"], format);
   }
+}
+
+TEST(Bars, AreMetOnlyWhereTheWholeIntervalIs) {
+  const auto verdict_of = [](bool at_least, double low, double high) {
+    reports::Bar bar;
+    bar.at_least = at_least;
+    bar.limit = 1;
+    bar.low = low;
+    bar.measured = (low + high) / 2;
+    bar.high = high;
+    return std::string(reports::verdict(bar));
+  };
+  EXPECT_EQ(verdict_of(false, 0.5, 0.9), "met");
+  EXPECT_EQ(verdict_of(false, 0.5, 1.1), "open");
+  EXPECT_EQ(verdict_of(false, 1.1, 1.2), "missed");
+  EXPECT_EQ(verdict_of(true, 1.1, 1.2), "met");
+  EXPECT_EQ(verdict_of(true, 0.5, 1.1), "open");
+  EXPECT_EQ(verdict_of(true, 0.5, 0.9), "missed");
+  EXPECT_EQ(verdict_of(false, std::nan(""), 0.9), "open");
+  EXPECT_EQ(verdict_of(true, 1.1, std::nan("")), "open");
+  EXPECT_EQ(reports::verdict(sample_bar()), "indicative");
 }
 
 TEST(Formats, NotANumberIsNullAndInfinityIsAWord) {

@@ -34,6 +34,7 @@ PageInput sample_input() {
   input.results.renders = {sample_render()};
   input.results.speed = {sample_speed_point()};
   input.results.ray_costs = {sample_ray_cost()};
+  input.results.bars = {sample_bar()};
   input.results.stability = {sample_stability_record()};
   input.results.figures = {sample_figure()};
   input.results.tables = {sample_table()};
@@ -94,6 +95,7 @@ TEST(Page, HoldsEveryRecordOfTheResults) {
   EXPECT_EQ(data["renders"][0]["scene"], "furnace_sphere");
   EXPECT_EQ(data["speed"][0]["curves"][0]["strategy"], "one-sample");
   EXPECT_EQ(data["ray_costs"][0]["ratio"], 0.75);
+  EXPECT_EQ(data["bars"][0]["verdict"], "indicative");
   EXPECT_EQ(data["stability"][0]["condition"], 3e5);
   EXPECT_EQ(data["figures"][0]["title"], "Error against samples");
   EXPECT_EQ(data["tables"][0]["rows"][1][1], "1.25");

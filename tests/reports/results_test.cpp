@@ -48,6 +48,7 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
     ResultLog bench(scratch / "bench", "bench");
     bench.append(sample_speed_point());
     bench.append(sample_ray_cost());
+    bench.append(sample_bar());
     bench.append(sample_stability_record());
     bench.append(sample_figure());
     bench.append(sample_table());
@@ -61,6 +62,7 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
   EXPECT_EQ(results.checks.size(), 1u);
   EXPECT_EQ(results.speed.size(), 1u);
   EXPECT_EQ(results.ray_costs.size(), 1u);
+  EXPECT_EQ(results.bars.size(), 1u);
   EXPECT_EQ(results.stability.size(), 1u);
   EXPECT_EQ(results.figures.size(), 1u);
   EXPECT_EQ(results.tables.size(), 1u);

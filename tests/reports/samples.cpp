@@ -101,6 +101,21 @@ reports::RayCost sample_ray_cost() {
   return cost;
 }
 
+reports::Bar sample_bar() {
+  reports::Bar bar;
+  bar.name = "equal error";
+  bar.unit = "relMSE × s";
+  bar.at_least = true;
+  bar.limit = 2.5;
+  bar.measured = 2;
+  bar.low = 1.75;
+  bar.high = 2.25;
+  bar.indicative = true;
+  bar.comparison = "another renderer: 20";
+  bar.note = "16 replicates";
+  return bar;
+}
+
 reports::StabilityRecord sample_stability_record() {
   reports::StabilityRecord record;
   record.bsdf = "GgxDielectric/eta 1.01 alpha 0.3";

@@ -11,6 +11,7 @@ reports::RunEnvironment sample_environment();
 reports::RenderRecord sample_render();
 reports::SpeedPoint sample_speed_point();
 reports::RayCost sample_ray_cost();
+reports::Bar sample_bar();
 reports::StabilityRecord sample_stability_record();
 reports::Figure sample_figure();
 reports::Table sample_table();

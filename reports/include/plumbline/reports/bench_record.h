@@ -40,12 +40,35 @@ struct RayCost {
   bool operator==(const RayCost&) const = default;
 };
 
+/// A figure that a benchmark is held against. JSON format "plumbline.bar/1".
+struct Bar {
+  std::string name;       ///< "Cornell box, equal error"
+  std::string unit;       ///< of all numbers below: "relMSE × s"; may be empty
+  bool at_least = false;  ///< whether the limit is the smallest or the largest that will do
+  double limit = 0;       ///< the bar
+  double measured = 0;
+  double low = 0;  ///< 95 % confidence interval
+  double high = 0;
+  bool indicative = false;  ///< measured on less than what the bar asks for: no verdict
+  std::string comparison;   ///< what others reach, may be empty: "pbrt-v4, zsobol: 0.075"
+  std::string note;         ///< how it was measured
+
+  bool operator==(const Bar&) const = default;
+};
+
+/// "met" or "missed" where the whole interval lies on one side of the limit, "open" where the limit
+/// is inside, "indicative" where the measurement cannot tell; never "met" for what is not a number.
+std::string_view verdict(const Bar& bar);
+
 std::string to_json(const SpeedPoint& point);
 std::string to_json(const RayCost& cost);
+std::string to_json(const Bar& bar);
 
 /// @throws FormatError
 SpeedPoint parse_speed_point(std::string_view json);
 /// @throws FormatError
 RayCost parse_ray_cost(std::string_view json);
+/// @throws FormatError
+Bar parse_bar(std::string_view json);
 
 }  // namespace plumbline::reports

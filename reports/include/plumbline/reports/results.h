@@ -40,6 +40,7 @@ class ResultLog {
   void append(const verify::CheckResult& result) { append_line(to_json(result)); }
   void append(const SpeedPoint& point) { append_line(to_json(point)); }
   void append(const RayCost& cost) { append_line(to_json(cost)); }
+  void append(const Bar& bar) { append_line(to_json(bar)); }
   void append(const StabilityRecord& record) { append_line(to_json(record)); }
   void append(const Figure& figure) { append_line(to_json(figure)); }
   void append(const Table& table) { append_line(to_json(table)); }
@@ -65,6 +66,7 @@ struct Results {
   std::vector<RenderRecord> renders;
   std::vector<SpeedPoint> speed;
   std::vector<RayCost> ray_costs;
+  std::vector<Bar> bars;
   std::vector<StabilityRecord> stability;
   std::vector<Figure> figures;
   std::vector<Table> tables;
