@@ -167,11 +167,12 @@ std::size_t best_share(const PixelIntegrals& pixel) {
 std::vector<PixelIntegrals> measure_integrals(const renderer::Scene& scene, std::uint32_t samples,
                                               std::uint64_t seed) {
   const int width = scene.camera().width(), height = scene.camera().height();
-  std::vector<PixelIntegrals> pixels(static_cast<std::size_t>(width) *
-                                     static_cast<std::size_t>(height));
+  const auto row_length = static_cast<std::size_t>(width);
+  std::vector<PixelIntegrals> pixels(row_length * static_cast<std::size_t>(height));
   oneapi::tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      const auto index = static_cast<std::size_t>(y * width + x);
+      const std::size_t index =
+          static_cast<std::size_t>(y) * row_length + static_cast<std::size_t>(x);
       pixels[index] = measure_pixel(scene, x, y, samples, {seed, index, 0});
     }
   });

@@ -218,18 +218,22 @@ class Experiment {
   /// sliver may reach into it that no reference has hit.
   std::vector<bool> judged_pixels() const {
     const int width = scene_.camera().width(), height = scene_.camera().height();
+    const auto index = [width](int x, int y) {
+      return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+             static_cast<std::size_t>(x);
+    };
     std::vector<bool> result(pooled_.size());
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         double largest = 0, emission = 0;
         for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
           for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
-            const PixelIntegrals& pixel = pooled_[static_cast<std::size_t>(v * width + u)];
+            const PixelIntegrals& pixel = pooled_[index(u, v)];
             largest = std::max(largest, pixel.count_variance(kEqual));
             emission += pixel.emission;
           }
         }
-        const auto i = static_cast<std::size_t>(y * width + x);
+        const std::size_t i = index(x, y);
         const double variance = pooled_[i].count_variance(kEqual);
         // The integrals are kept in float, which leaves 6e-8 μ² of rounding in their variance.
         result[i] = emission == 0 && variance > 0.01 * largest &&

@@ -67,7 +67,8 @@ constexpr int kLights = 1000;
 constexpr double kSpacing = 0.08, kLightRadius = 0.036, kLightHeight = 1;
 
 GridLight grid_light(int i) {
-  return {(i % 40 - 19.5) * kSpacing, (i / 40 - 12.0) * kSpacing, 1.0 + i % 5};
+  const int column = i % 40, row = i / 40;
+  return {(column - 19.5) * kSpacing, (row - 12.0) * kSpacing, 1.0 + i % 5};
 }
 
 std::unique_ptr<PixelOracle> make_lights_1000(const OracleInput& input) {

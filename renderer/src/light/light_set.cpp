@@ -116,7 +116,7 @@ LightSet::LightSet(std::vector<Light> lights, const std::vector<std::uint32_t>& 
   selection_ = DiscreteDistribution(weights);
 }
 
-LightSet::LightSet(std::vector<Light> lights)
+LightSet::LightSet(const std::vector<Light>& lights)
     : LightSet(lights, each_its_own(lights.size()), LightSelection::uniform, 0) {}
 
 }  // namespace plumbline::renderer

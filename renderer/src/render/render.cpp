@@ -166,7 +166,8 @@ class Renderer {
       const DirectSample sample =
           sample_direct_light(scene_, ray, technique, u_light, random.next_2d(), counters);
       emission = sample.emission;
-      return TechniqueSample<Rgbd>{rgb_cast<double>(sample.value), sample.pdf, sample.other_pdf};
+      return TechniqueSample<Rgbd>{rgb_cast<double>(sample.value), double{sample.pdf},
+                                   double{sample.other_pdf}};
     };
     const auto record = [&](std::uint32_t iteration, std::size_t technique, const Rgbd& reflected) {
       if (technique == kBsdfTechnique) ++bsdf_counts[iteration];
@@ -214,7 +215,8 @@ void check_allocation(const RenderOptions& options) {
 
 std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterations) {
   const std::uint64_t samples = result.samples_per_pixel;
-  const auto last = static_cast<float>(samples - samples * (iterations - 1) / iterations);
+  const std::uint64_t before_last = samples * (iterations - 1) / iterations;
+  const auto last = static_cast<float>(samples - before_last);
   std::vector<float> shares;
   shares.reserve(result.film.pixels().size());
   for (std::size_t i = iterations - 1; i < result.bsdf_counts.size(); i += iterations) {

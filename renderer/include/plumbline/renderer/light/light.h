@@ -92,7 +92,7 @@ class LightSet {
            LightSelection selection, double scene_radius);
 
   /// Each light a group of its own, chosen uniformly.
-  explicit LightSet(std::vector<Light> lights);
+  explicit LightSet(const std::vector<Light>& lights);
 
   bool empty() const { return lights_.empty(); }
   std::size_t size() const { return lights_.size(); }
