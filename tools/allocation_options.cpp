@@ -4,28 +4,16 @@
 
 #include <vector>
 
-#include <plumbline/renderer/nearest_name.h>
 #include <plumbline/renderer/render/exr.h>
 
 #include "numbers.h"
+#include "render_values.h"
 
 namespace plumbline::tools {
 namespace {
 
 constexpr std::uint32_t kMaxIterations = 1u << 20;
 constexpr std::uint32_t kSamples = 1000;  // 50 in each of 20 iterations
-
-std::vector<std::string> policy_names() {
-  std::vector<std::string> names;
-  for (const renderer::Allocation policy : renderer::kAllocations) names.emplace_back(name(policy));
-  return names;
-}
-
-renderer::Allocation parse_policy(const std::string& text) {
-  if (const auto policy = renderer::allocation_from_name(text)) return *policy;
-  throw renderer::InputError(fmt::format("--allocation {}: there is no such policy; {}", text,
-                                         renderer::name_hint(text, policy_names())));
-}
 
 }  // namespace
 
@@ -36,11 +24,12 @@ void add_allocation_options(CLI::App& command, AllocationArguments& arguments,
           .add_option_function<std::string>(
               "--allocation",
               [&](const std::string& text) {
-                arguments.policy = parse_policy(text);
+                arguments.policy =
+                    parse_name("--allocation", "policy", renderer::kAllocations, text);
                 heuristic = renderer::Heuristic::balance;
               },
               fmt::format("Direct light by BSDF and light samples, shared out pixel by pixel: {}",
-                          fmt::join(policy_names(), ", ")))
+                          fmt::join(names_of(renderer::kAllocations), ", ")))
           ->type_name("NAME");
   for (const char* other : {"--strategy", "--heuristic", "--counts", "--light-probability",
                             "--sampler", "--seconds", "--error"}) {

@@ -244,7 +244,10 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
       ->type_name("FILE");
   command
       .add_option_function<std::string>(
-          "--strategy", [&](const std::string& text) { arguments.strategy = parse_strategy(text); },
+          "--strategy",
+          [&](const std::string& text) {
+            arguments.strategy = parse_name("--strategy", "strategy", renderer::kStrategies, text);
+          },
           fmt::format("One of {}; mis without it",
                       fmt::join(names_of(renderer::kStrategies), ", ")))
       ->type_name("NAME");
@@ -269,14 +272,20 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
       ->type_name("N");
   command
       .add_option_function<std::string>(
-          "--sampler", [&](const std::string& text) { arguments.sampler = parse_sampler(text); },
+          "--sampler",
+          [&](const std::string& text) {
+            arguments.sampler = parse_name("--sampler", "sampler", renderer::kSamplers, text);
+          },
           fmt::format("One of {}; independent without it",
                       fmt::join(names_of(renderer::kSamplers), ", ")))
       ->type_name("NAME");
   command
       .add_option_function<std::string>(
           "--light-selection",
-          [&](const std::string& text) { arguments.light_selection = parse_light_selection(text); },
+          [&](const std::string& text) {
+            arguments.light_selection =
+                parse_name("--light-selection", "selection", renderer::kLightSelections, text);
+          },
           fmt::format("How one of the lights is chosen, one of {}; uniform without it",
                       fmt::join(names_of(renderer::kLightSelections), ", ")))
       ->type_name("NAME");

@@ -9,6 +9,12 @@
 
 namespace plumbline::tools {
 
+renderer::InputError unknown_name(std::string_view option, std::string_view kind,
+                                  const std::string& text, const std::vector<std::string>& known) {
+  return renderer::InputError(fmt::format("{} {}: there is no such {}; {}", option, text, kind,
+                                          renderer::name_hint(text, known)));
+}
+
 std::optional<renderer::FilmSize> parse_size(const std::string& text) {
   if (text.empty()) return std::nullopt;
   renderer::FilmSize size;
@@ -45,37 +51,15 @@ int parse_roulette(const std::string& text) {
   throw renderer::InputError(fmt::format("--roulette {}: must be a depth from 1 on, or off", text));
 }
 
-renderer::Strategy parse_strategy(const std::string& text) {
-  if (const auto strategy = renderer::strategy_from_name(text)) return *strategy;
-  throw renderer::InputError(
-      fmt::format("--strategy {}: there is no such strategy; {}", text,
-                  renderer::name_hint(text, names_of(renderer::kStrategies))));
-}
-
 renderer::Weighting parse_heuristic(const std::string& text) {
   if (const auto weighting = renderer::weighting_from_text(text)) return *weighting;
   const std::string heuristic = text.substr(0, text.find('='));
-  if (renderer::heuristic_from_name(heuristic)) {
+  if (renderer::from_name(renderer::kHeuristics, heuristic)) {
     throw renderer::InputError(fmt::format(
         "--heuristic {}: only power=b with b > 0 and cutoff=a with a in [0, 1] have a parameter",
         text));
   }
-  throw renderer::InputError(
-      fmt::format("--heuristic {}: there is no such heuristic; {}", text,
-                  renderer::name_hint(heuristic, names_of(renderer::kHeuristics))));
-}
-
-renderer::SamplerType parse_sampler(const std::string& text) {
-  if (const auto sampler = renderer::sampler_from_name(text)) return *sampler;
-  throw renderer::InputError(fmt::format("--sampler {}: there is no such sampler; {}", text,
-                                         renderer::name_hint(text, names_of(renderer::kSamplers))));
-}
-
-renderer::LightSelection parse_light_selection(const std::string& text) {
-  if (const auto selection = renderer::light_selection_from_name(text)) return *selection;
-  throw renderer::InputError(
-      fmt::format("--light-selection {}: there is no such selection; {}", text,
-                  renderer::name_hint(text, names_of(renderer::kLightSelections))));
+  throw unknown_name("--heuristic", "heuristic", heuristic, names_of(renderer::kHeuristics));
 }
 
 }  // namespace plumbline::tools

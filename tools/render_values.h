@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include <plumbline/renderer/from_name.h>
 #include <plumbline/renderer/render/path.h>
 #include <plumbline/renderer/scene/load_scene.h>
 
@@ -19,7 +22,22 @@ std::vector<std::string> names_of(const Values& values) {
   return names;
 }
 
+/// What `parse_name` throws: what was written, and the name that was meant or all that there are.
+renderer::InputError unknown_name(std::string_view option, std::string_view kind,
+                                  const std::string& text, const std::vector<std::string>& known);
+
 // All of these throw renderer::InputError with the option, its value and what it takes.
+
+/// The value that a name stands for.
+///
+/// @param option  "--sampler"
+/// @param kind    what the message calls such a value: "sampler"
+template <class Value, std::size_t N>
+Value parse_name(std::string_view option, std::string_view kind, const std::array<Value, N>& values,
+                 const std::string& text) {
+  if (const auto value = renderer::from_name(values, text)) return *value;
+  throw unknown_name(option, kind, text, names_of(values));
+}
 
 /// "WxH"; none for an empty text.
 std::optional<renderer::FilmSize> parse_size(const std::string& text);
@@ -30,13 +48,7 @@ void set_counts(const std::string& text, renderer::PathOptions& path);
 /// A depth from 1 on, or "off".
 int parse_roulette(const std::string& text);
 
-renderer::Strategy parse_strategy(const std::string& text);
-
 /// A name, for some with "=" and a parameter.
 renderer::Weighting parse_heuristic(const std::string& text);
-
-renderer::SamplerType parse_sampler(const std::string& text);
-
-renderer::LightSelection parse_light_selection(const std::string& text);
 
 }  // namespace plumbline::tools

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include <plumbline/renderer/from_name.h>
 #include <plumbline/renderer/mis/allocation.h>
 #include <plumbline/verify/random.h>
 
@@ -140,9 +141,9 @@ TEST(AllocationPolicies, RootMovesTheOldSlopeByTheCurvatureAndWeighsTheNewByOneO
 
 TEST(AllocationPolicies, NamesLeadBackToThem) {
   for (const Allocation policy : renderer::kAllocations) {
-    EXPECT_EQ(renderer::allocation_from_name(name(policy)), policy);
+    EXPECT_EQ(renderer::from_name(renderer::kAllocations, name(policy)), policy);
   }
-  EXPECT_EQ(renderer::allocation_from_name("root"), std::nullopt);
+  EXPECT_EQ(renderer::from_name(renderer::kAllocations, "root"), std::nullopt);
 }
 
 TEST(Allocator, CountsAddUpAndNeitherTechniqueIsLeftOut) {

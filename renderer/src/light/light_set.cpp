@@ -94,13 +94,6 @@ std::string_view name(LightSelection selection) {
   return "?";
 }
 
-std::optional<LightSelection> light_selection_from_name(std::string_view text) {
-  for (const LightSelection selection : kLightSelections) {
-    if (name(selection) == text) return selection;
-  }
-  return std::nullopt;
-}
-
 LightSet::LightSet(std::vector<Light> lights, const std::vector<std::uint32_t>& groups,
                    LightSelection selection, double scene_radius)
     : lights_(std::move(lights)) {

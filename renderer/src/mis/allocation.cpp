@@ -26,13 +26,6 @@ std::string_view name(Allocation policy) {
   return "?";
 }
 
-std::optional<Allocation> allocation_from_name(std::string_view text) {
-  for (const Allocation policy : kAllocations) {
-    if (name(policy) == text) return policy;
-  }
-  return std::nullopt;
-}
-
 void SlopeSums::add(std::size_t technique, const MixtureSample& sample) {
   const double square = sqr(sample.value);
   const double difference = sample.difference();

@@ -4,16 +4,10 @@
 
 #include <charconv>
 
+#include <plumbline/renderer/from_name.h>
+
 namespace plumbline::renderer {
 namespace {
-
-template <class Value, std::size_t N>
-std::optional<Value> from_name(const std::array<Value, N>& values, std::string_view text) {
-  for (const Value value : values) {
-    if (name(value) == text) return value;
-  }
-  return std::nullopt;
-}
 
 bool has_parameter(Heuristic heuristic) {
   return heuristic == Heuristic::power || heuristic == Heuristic::cutoff;
@@ -57,14 +51,6 @@ std::string_view name(Heuristic heuristic) {
   return "?";
 }
 
-std::optional<Strategy> strategy_from_name(std::string_view text) {
-  return from_name(kStrategies, text);
-}
-
-std::optional<Heuristic> heuristic_from_name(std::string_view text) {
-  return from_name(kHeuristics, text);
-}
-
 std::string describe(const Weighting& weighting) {
   if (!has_parameter(weighting.heuristic)) return std::string(name(weighting.heuristic));
   return fmt::format("{}={}", name(weighting.heuristic), weighting.parameter);
@@ -72,7 +58,7 @@ std::string describe(const Weighting& weighting) {
 
 std::optional<Weighting> weighting_from_text(std::string_view text) {
   const std::size_t equals = text.find('=');
-  const auto heuristic = heuristic_from_name(text.substr(0, equals));
+  const auto heuristic = from_name(kHeuristics, text.substr(0, equals));
   if (!heuristic) return std::nullopt;
   if (equals == std::string_view::npos) return Weighting(*heuristic);
   const std::string_view number = text.substr(equals + 1);

@@ -77,9 +77,6 @@ inline constexpr std::array kLightSelections{LightSelection::uniform, LightSelec
 /// The name on the command line: "uniform", "area", "power".
 std::string_view name(LightSelection selection);
 
-/// @return nullopt for a name that no selection has
-std::optional<LightSelection> light_selection_from_name(std::string_view text);
-
 /// All lights of a scene with the way one of them is chosen.
 class LightSet {
  public:

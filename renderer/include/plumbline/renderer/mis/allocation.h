@@ -37,9 +37,6 @@ inline constexpr std::array kAllocations{
 /// The name on the command line: "equal", "lu", "sbert-moment", "root-v1", …
 std::string_view name(Allocation policy);
 
-/// @return nullopt for a name that no policy has
-std::optional<Allocation> allocation_from_name(std::string_view text);
-
 struct AllocationOptions {
   Allocation policy = Allocation::equal;
   double limit = 0.1;             ///< α stays in [limit, 1 − limit]; in (0, 0.5]

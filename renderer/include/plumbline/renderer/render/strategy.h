@@ -29,10 +29,6 @@ std::string_view name(Strategy strategy);
 /// "balance", "power", "cutoff", "maximum".
 std::string_view name(Heuristic heuristic);
 
-/// @return nullopt for a name that no strategy has
-std::optional<Strategy> strategy_from_name(std::string_view text);
-std::optional<Heuristic> heuristic_from_name(std::string_view text);
-
 /// "balance", "power=2", "cutoff=0.1", "maximum": the heuristic with its parameter, if it has one.
 std::string describe(const Weighting& weighting);
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 #include <variant>
 
@@ -22,14 +21,6 @@ inline constexpr std::array kSamplers{SamplerType::independent, SamplerType::sob
 /// The name on the command line: "independent", "sobol".
 constexpr std::string_view name(SamplerType type) {
   return type == SamplerType::sobol ? "sobol" : "independent";
-}
-
-/// @return nullopt for a name that no sampler has
-constexpr std::optional<SamplerType> sampler_from_name(std::string_view text) {
-  for (const SamplerType type : kSamplers) {
-    if (name(type) == text) return type;
-  }
-  return std::nullopt;
 }
 
 /// The random numbers of one path, uniform in [0, 1) and never 1. Which numbers they are depends on
