@@ -1,19 +1,12 @@
 #include <plumbline/renderer/light/environment_map.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace plumbline::renderer {
-namespace {
-
-double sum_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum;
-}
-
-}  // namespace
 
 EnvironmentTable::EnvironmentTable(int w, int h, std::vector<Rgbf> image, bool compensation)
     : width(w), height(h), pixels(std::move(image)) {
@@ -37,7 +30,7 @@ EnvironmentTable::EnvironmentTable(int w, int h, std::vector<Rgbf> image, bool c
   double largest = 0;
   for (std::size_t row = 0; row < row_count; ++row) {
     const std::vector<double> values = luminances(row);
-    mean_luminance += share(row) * sum_of(values) / width;
+    mean_luminance += share(row) * std::accumulate(values.begin(), values.end(), 0.0) / width;
     for (const double value : values) largest = std::max(largest, value);
   }
   // A map that is the same everywhere has nothing above its mean but rounding.
@@ -48,7 +41,7 @@ EnvironmentTable::EnvironmentTable(int w, int h, std::vector<Rgbf> image, bool c
   for (std::size_t row = 0; row < row_count; ++row) {
     std::vector<double> weights = luminances(row);
     for (double& weight : weights) weight = std::max(weight - floor, 0.0);
-    row_weights[row] = share(row) * sum_of(weights);
+    row_weights[row] = share(row) * std::accumulate(weights.begin(), weights.end(), 0.0);
     columns.emplace_back(weights);
   }
   rows = DiscreteDistribution(row_weights);
