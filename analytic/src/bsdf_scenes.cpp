@@ -102,16 +102,12 @@ constexpr std::string_view kBlind =
 
 KnownScene furnace(std::string_view name, std::string_view answer, bool atoms,
                    std::unique_ptr<PixelOracle> (*make)(const OracleInput&)) {
-  KnownScene scene;
-  scene.name = name;
-  scene.answer = answer;
+  KnownScene scene = floor_scene(name, answer, make);
   scene.view = {{0, 0, 1}, {1.2, 0.1, 0}, {0, 0, 1}, 50};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
   scene.parameters = {{"radiance", 1, "Le of the environment [W/(m² sr)], not negative"}};
-  scene.expectations = atoms ? expect_pass_but_for({{Strategy::average, Expected::fail, kBlind}})
-                             : expect_pass_from_all();
-  scene.make = make;
+  if (atoms) {
+    scene.expectations = expect_pass_but_for({{Strategy::average, Expected::fail, kBlind}});
+  }
   return scene;
 }
 

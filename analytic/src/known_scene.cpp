@@ -55,14 +55,41 @@ double parameter(const OracleInput& input, std::string_view name) {
   return input.parameters.find(name)->second;
 }
 
-double reflected_radiance(const OracleInput& input) {
+KnownScene floor_scene(std::string_view name, std::string_view answer,
+                       std::unique_ptr<PixelOracle> (*make)(const OracleInput&)) {
+  KnownScene scene;
+  scene.name = name;
+  scene.answer = answer;
+  scene.film = {64, 48};
+  scene.max_depth = 2;
+  scene.expectations = expect_pass_from_all();
+  scene.make = make;
+  return scene;
+}
+
+Parameter light_radiance(double value) {
+  return {"radiance", value, "Le of the light [W/(m² sr)], not negative"};
+}
+
+Parameter floor_albedo(double value) {
+  return {"albedo", value, "reflectance of the floor [1], 0 to 1"};
+}
+
+bool counts_reflected(const OracleInput& input) {
+  return input.max_depth == -1 || input.max_depth >= 2;
+}
+
+double albedo_over_pi(const OracleInput& input) {
   const double albedo = parameter(input, "albedo");
-  const double radiance = parameter(input, "radiance");
   require(albedo >= 0 && albedo <= 1, "albedo must be in [0, 1]");
+  return counts_reflected(input) ? albedo / std::numbers::pi : 0;
+}
+
+double reflected_radiance(const OracleInput& input) {
+  const double radiance = parameter(input, "radiance");
   require(radiance >= 0 && radiance <= std::numeric_limits<double>::max(),
           "radiance must be finite and not negative");
-  const bool lit = input.max_depth == -1 || input.max_depth >= 2;
-  return lit ? albedo / std::numbers::pi * radiance : 0;
+  return albedo_over_pi(input) * radiance;
 }
 
 const std::vector<KnownScene>& known_scenes() {

@@ -90,21 +90,17 @@ std::unique_ptr<PixelOracle> make_triangle_light(const OracleInput& input) {
 }
 
 KnownScene rectangle_light() {
-  KnownScene scene;
-  scene.name = "rectangle_light";
-  scene.answer =
-      "L = albedo / pi * Le * Lambert's formula, under a rectangle that the horizon may cut";
+  KnownScene scene = floor_scene(
+      "rectangle_light",
+      "L = albedo / pi * Le * Lambert's formula, under a rectangle that the horizon may cut",
+      make_rectangle_light);
   scene.view = {{1.75, 0, 1}, {1.75, 0, 0}, {0, 1, 0}, 90};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
   scene.parameters = {
       {"tilt", 180, "turn of the light about y [degrees]; 180 faces down, 90 along x"},
       {"height", 1.5, "of the light's centre over the floor [m]"},
-      {"radiance", 4, "Le of the light [W/(m² sr)], not negative"},
-      {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
-  scene.expectations = expect_pass_from_all();
+      light_radiance(4),
+      floor_albedo(0.75)};
   scene.variants = {{"cut_by_the_horizon", {{"tilt", 90.0}, {"height", 0.2}}, {}}};
-  scene.make = make_rectangle_light;
   return scene;
 }
 
@@ -123,21 +119,17 @@ std::unique_ptr<PixelOracle> make_thin_gap(const OracleInput& input) {
 }
 
 KnownScene thin_gap() {
-  KnownScene scene;
-  scene.name = "thin_gap";
-  scene.answer =
-      "L = albedo / pi * Le * Lambert's formula on a floor 1e-4 below an emitting square";
+  KnownScene scene = floor_scene(
+      "thin_gap",
+      "L = albedo / pi * Le * Lambert's formula on a floor 1e-4 below an emitting square",
+      make_thin_gap);
   scene.view = {{0, 0, 5e-5}, {0, 0, 0}, {0, 1, 0}, 90};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
-  scene.parameters = {{"radiance", 1, "Le of the light [W/(m² sr)], not negative"},
-                      {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
+  scene.parameters = {light_radiance(1), floor_albedo(0.75)};
   constexpr std::string_view kReason =
       "points spread over the area A of a light at the distance h seldom lie where they count: the "
       "variance is about A/h², 4e8 times the squared mean";
   scene.expectations = expect_pass_but_for({{Strategy::light, Expected::hopeless, kReason},
                                             {Strategy::average, Expected::hopeless, kReason}});
-  scene.make = make_thin_gap;
   return scene;
 }
 
@@ -148,22 +140,18 @@ std::unique_ptr<PixelOracle> make_scaled_moved(const OracleInput& input) {
 }
 
 KnownScene scaled_moved() {
-  KnownScene scene;
-  scene.name = "scaled_moved";
-  scene.answer =
-      "L = albedo / pi * Le * Lambert's formula, whatever the scale of the scene and its place";
+  KnownScene scene = floor_scene(
+      "scaled_moved",
+      "L = albedo / pi * Le * Lambert's formula, whatever the scale of the scene and its place",
+      make_scaled_moved);
   scene.view = {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 90};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
   scene.parameters = {{"scale", 1, "of everything, positive"},
                       {"offset", 0, "of everything along each axis [m]"},
-                      {"radiance", 4, "Le of the light [W/(m² sr)], not negative"},
-                      {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
-  scene.expectations = expect_pass_from_all();
+                      light_radiance(4),
+                      floor_albedo(0.75)};
   scene.variants = {{"moved_by_1e5", {{"offset", 1e5}}, {}},
                     {"scaled_by_1e-3", {{"scale", 1e-3}}, {}},
                     {"scaled_by_1e3", {{"scale", 1e3}}, {}}};
-  scene.make = make_scaled_moved;
   return scene;
 }
 
@@ -189,18 +177,14 @@ std::unique_ptr<PixelOracle> make_lights_overlap(const OracleInput& input) {
 }
 
 KnownScene lights_overlap() {
-  KnownScene scene;
-  scene.name = "lights_overlap";
-  scene.answer =
-      "L = albedo / pi * (Le * E_large + (small - Le) * E_small): one light in front of another";
+  KnownScene scene = floor_scene(
+      "lights_overlap",
+      "L = albedo / pi * (Le * E_large + (small - Le) * E_small): one light in front of another",
+      make_lights_overlap);
   scene.view = {{0, 0, 0.5}, {0, 0, 0}, {0, 1, 0}, 90};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
   scene.parameters = {{"small", 5, "Le of the small light [W/(m² sr)], not negative"},
                       {"radiance", 1, "Le of the large light [W/(m² sr)], positive"},
-                      {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
-  scene.expectations = expect_pass_from_all();
-  scene.make = make_lights_overlap;
+                      floor_albedo(0.75)};
   return scene;
 }
 
@@ -228,18 +212,14 @@ std::unique_ptr<PixelOracle> make_phong_polygon(const OracleInput& input) {
 }
 
 KnownScene phong_polygon() {
-  KnownScene scene;
-  scene.name = "phong_polygon";
-  scene.answer =
-      "L = albedo * Le * (n + 2) / (2 pi) * the double-axis moment of a square over a Phong floor";
+  KnownScene scene = floor_scene(
+      "phong_polygon",
+      "L = albedo * Le * (n + 2) / (2 pi) * the double-axis moment of a square over a Phong floor",
+      make_phong_polygon);
   scene.view = {{-1.2, 0, 1.2}, {0, 0, 0}, {0, 0, 1}, 40};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
   scene.parameters = {{"exponent", 20, "of the Phong lobe, a whole number"},
-                      {"radiance", 4, "Le of the light [W/(m² sr)], not negative"},
+                      light_radiance(4),
                       {"albedo", 0.75, "reflectance of the lobe [1], 0 to 1"}};
-  scene.expectations = expect_pass_from_all();
-  scene.make = make_phong_polygon;
   return scene;
 }
 

@@ -17,6 +17,23 @@ std::vector<KnownScene> sun_scenes();
 /// Value of a parameter that the scene is known to have.
 double parameter(const OracleInput& input, std::string_view name);
 
+/// A floor, or what stands for one, seen at 64×48 pixels by light that is reflected once; every
+/// strategy passes. View and parameters are left to fill in.
+KnownScene floor_scene(std::string_view name, std::string_view answer,
+                       std::unique_ptr<PixelOracle> (*make)(const OracleInput&));
+
+/// The parameters that most of these have: "radiance" and "albedo".
+Parameter light_radiance(double value);
+Parameter floor_albedo(double value);
+
+/// Whether light that is reflected once counts at the depth asked for.
+bool counts_reflected(const OracleInput& input);
+
+/// `albedo`/π; 0 where the depth shows emission alone.
+///
+/// @throws std::invalid_argument for an albedo outside [0, 1]
+double albedo_over_pi(const OracleInput& input);
+
 /// `albedo`/π · `radiance`, what turns an irradiance per radiance into reflected radiance; 0 where
 /// the depth shows emission alone.
 ///

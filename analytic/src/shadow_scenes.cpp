@@ -27,18 +27,13 @@ std::unique_ptr<PixelOracle> make_edge_shadow(const OracleInput& input) {
 }
 
 KnownScene edge_shadow() {
-  KnownScene scene;
-  scene.name = "edge_shadow";
-  scene.answer =
+  KnownScene scene = floor_scene(
+      "edge_shadow",
       "L = albedo / pi * Le * the irradiance of the part of a disk that an edge leaves, from none "
-      "of it to all";
+      "of it to all",
+      make_edge_shadow);
   scene.view = {{0, 0, 0.5}, {0, 0, 0}, {0, 1, 0}, 90};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
-  scene.parameters = {{"radiance", 10, "Le of the light [W/(m² sr)], not negative"},
-                      {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
-  scene.expectations = expect_pass_from_all();
-  scene.make = make_edge_shadow;
+  scene.parameters = {light_radiance(10), floor_albedo(0.75)};
   return scene;
 }
 
@@ -65,20 +60,16 @@ std::unique_ptr<PixelOracle> make_sphere_shadow(const OracleInput& input) {
 }
 
 KnownScene sphere_shadow() {
-  KnownScene scene;
-  scene.name = "sphere_shadow";
-  scene.answer =
+  KnownScene scene = floor_scene(
+      "sphere_shadow",
       "L = albedo / pi * Le * the irradiance of the part of a sphere that another leaves: 0 in the "
-      "umbra, by quadrature in the penumbra";
+      "umbra, by quadrature in the penumbra",
+      make_sphere_shadow);
   scene.view = {{0, 0, 0.5}, {0, 0, 0}, {0, 1, 0}, 60};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
   scene.parameters = {{"blocker_x", 0.9, "how far the blocker stands aside [m]"},
-                      {"radiance", 10, "Le of the light [W/(m² sr)], not negative"},
-                      {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
-  scene.expectations = expect_pass_from_all();
+                      light_radiance(10),
+                      floor_albedo(0.75)};
   scene.variants = {{"umbra", {{"blocker_x", 0.0}}, {}}, {"clear", {{"blocker_x", 3.0}}, {}}};
-  scene.make = make_sphere_shadow;
   return scene;
 }
 

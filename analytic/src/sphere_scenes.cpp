@@ -25,18 +25,13 @@ std::unique_ptr<PixelOracle> make_sphere_near(const OracleInput& input) {
 }
 
 KnownScene sphere_near() {
-  KnownScene scene;
-  scene.name = "sphere_near";
-  scene.answer =
+  KnownScene scene = floor_scene(
+      "sphere_near",
       "L = albedo * Le * sin^2(theta_max) * cos(theta) on the floor 1e-4 R below an emitting "
-      "sphere, which fills nearly all of its sky";
+      "sphere, which fills nearly all of its sky",
+      make_sphere_near);
   scene.view = {{0, 0, 5e-5}, {0, 0, 0}, {0, 1, 0}, 90};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
-  scene.parameters = {{"radiance", 1, "Le of the light [W/(m² sr)], not negative"},
-                      {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
-  scene.expectations = expect_pass_from_all();
-  scene.make = make_sphere_near;
+  scene.parameters = {light_radiance(1), floor_albedo(0.75)};
   return scene;
 }
 
@@ -45,16 +40,11 @@ std::unique_ptr<PixelOracle> make_sphere_inside(const OracleInput& input) {
 }
 
 KnownScene sphere_inside() {
-  KnownScene scene;
-  scene.name = "sphere_inside";
-  scene.answer = "L = albedo * Le on a floor inside a sphere that emits inwards";
+  KnownScene scene =
+      floor_scene("sphere_inside", "L = albedo * Le on a floor inside a sphere that emits inwards",
+                  make_sphere_inside);
   scene.view = {{0, 0, 1}, {0.2, 0.1, 0}, {0, 1, 0}, 50};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
-  scene.parameters = {{"radiance", 1, "Le of the light [W/(m² sr)], not negative"},
-                      {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
-  scene.expectations = expect_pass_from_all();
-  scene.make = make_sphere_inside;
+  scene.parameters = {light_radiance(1), floor_albedo(0.75)};
   return scene;
 }
 
@@ -72,10 +62,7 @@ GridLight grid_light(int i) {
 }
 
 std::unique_ptr<PixelOracle> make_lights_1000(const OracleInput& input) {
-  const double albedo = parameter(input, "albedo");
-  require(albedo >= 0 && albedo <= 1, "albedo must be in [0, 1]");
-  const bool lit = input.max_depth == -1 || input.max_depth >= 2;
-  const double scale = lit ? albedo / std::numbers::pi : 0;
+  const double scale = albedo_over_pi(input);
   return floor_oracle(input.camera, 5,
                       [scale](const Vec3& p, const Vec3&) {
                         double sum = 0;
@@ -92,15 +79,11 @@ std::unique_ptr<PixelOracle> make_lights_1000(const OracleInput& input) {
 }
 
 KnownScene lights_1000() {
-  KnownScene scene;
-  scene.name = "lights_1000";
-  scene.answer = "L = albedo / pi * sum of E_i under 1,000 disks of unequal power over a floor";
+  KnownScene scene = floor_scene(
+      "lights_1000", "L = albedo / pi * sum of E_i under 1,000 disks of unequal power over a floor",
+      make_lights_1000);
   scene.view = {{0, 0, 0.5}, {0, 0, 0}, {0, 1, 0}, 90};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
-  scene.parameters = {{"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
-  scene.expectations = expect_pass_from_all();
-  scene.make = make_lights_1000;
+  scene.parameters = {floor_albedo(0.75)};
   return scene;
 }
 

@@ -62,14 +62,12 @@ std::unique_ptr<PixelOracle> make_sidewalk(const OracleInput& input) {
 }
 
 KnownScene sidewalk() {
-  KnownScene scene;
-  scene.name = "sidewalk";
-  scene.answer =
+  KnownScene scene = floor_scene(
+      "sidewalk",
       "L = albedo / pi * (Lsky * (pi - E_wall) + Lsun * pi * sin^2(0.2665 deg) * cos(theta)) in "
-      "the sun, without the last term in the shade of a black wall";
+      "the sun, without the last term in the shade of a black wall",
+      make_sidewalk);
   scene.view = {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 50};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
   scene.parameters = {
       {"sun_x", -0.5, "its light travels along (sun_x, -0.2, -1); 0.8 is from behind the wall"},
       {"sun", 20000, "radiance of the sun [W/(m² sr)], not negative"},
@@ -93,7 +91,6 @@ KnownScene sidewalk() {
                      {{Strategy::bsdf, Expected::pass, kHidden},
                       {Strategy::uniform, Expected::pass, kHidden},
                       {Strategy::average, Expected::pass, kHidden}}}};
-  scene.make = make_sidewalk;
   return scene;
 }
 
@@ -102,8 +99,8 @@ std::unique_ptr<PixelOracle> make_point_glossy(const OracleInput& input) {
   constexpr double kExponent = 20;
   const double intensity = parameter(input, "intensity");
   require(intensity >= 0 && intensity < 1e300, "intensity must be finite and not negative");
-  const bool lit = input.max_depth == -1 || input.max_depth >= 2;
-  const double scale = lit ? (kExponent + 2) / (2 * std::numbers::pi) * intensity : 0;
+  const double scale =
+      counts_reflected(input) ? (kExponent + 2) / (2 * std::numbers::pi) * intensity : 0;
   return floor_oracle(input.camera, 10, [=](const Vec3& p, const Vec3& to_camera) {
     const Vec3 r = Vec3{1.2, 0, 1.2} - p;
     const double d2 = dot(r, r);
@@ -114,18 +111,15 @@ std::unique_ptr<PixelOracle> make_point_glossy(const OracleInput& input) {
 }
 
 KnownScene point_glossy() {
-  KnownScene scene;
-  scene.name = "point_glossy";
-  scene.answer = "L = (n + 2) / (2 pi) * cos^n(alpha) * I * cos(theta) / d^2 of a point light";
+  KnownScene scene = floor_scene(
+      "point_glossy", "L = (n + 2) / (2 pi) * cos^n(alpha) * I * cos(theta) / d^2 of a point light",
+      make_point_glossy);
   scene.view = {{-1.2, 0, 1.2}, {0, 0, 0}, {0, 0, 1}, 40};
-  scene.film = {64, 48};
-  scene.max_depth = 2;
   scene.parameters = {{"intensity", 5, "of the light [W/sr], not negative"}};
   constexpr std::string_view kBlind = "no direction from a BSDF meets a point";
   scene.expectations = expect_pass_but_for({{Strategy::bsdf, Expected::fail, kBlind},
                                             {Strategy::uniform, Expected::fail, kBlind},
                                             {Strategy::average, Expected::fail, kBlind}});
-  scene.make = make_point_glossy;
   return scene;
 }
 
