@@ -22,10 +22,6 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
 verify::CheckResult check_named(const std::string& subject) {
   verify::CheckResult check = sample_check();
   check.subject = subject;
@@ -111,7 +107,7 @@ TEST(ResultLog, TornLastLineIsReportedAndCostsNoOtherRecord) {
   const ScratchDirectory scratch;
   ResultLog(scratch.path(), "checks").append(check_named("before"));
   const std::string whole = text_of(scratch / "checks.jsonl");
-  write_text(scratch / "checks.jsonl", whole + reports::to_json(sample_check()).substr(0, 60));
+  scratch.write("checks.jsonl", whole + reports::to_json(sample_check()).substr(0, 60));
   ResultLog(scratch.path(), "checks").append(check_named("after"));
 
   const Results results = reports::read_results(scratch.path());
@@ -127,14 +123,14 @@ TEST(ResultLog, TornLastLineIsReportedAndCostsNoOtherRecord) {
 
 TEST(ResultLog, DirectoryThatCannotBeMadeIsAnError) {
   const ScratchDirectory scratch;
-  write_text(scratch / "file", "");
+  scratch.write("file", "");
   EXPECT_THROW(ResultLog(scratch / "file" / "results", "checks"), std::system_error);
 }
 
 TEST(ReadResults, UnknownVersionIsAWarningThatNamesIt) {
   const ScratchDirectory scratch;
-  write_text(scratch / "new.jsonl", "{\"format\":\"plumbline.check/9\"}\n" +
-                                        reports::to_json(sample_check()) + "\n{\"a\":1}\n");
+  scratch.write("new.jsonl", "{\"format\":\"plumbline.check/9\"}\n" +
+                                 reports::to_json(sample_check()) + "\n{\"a\":1}\n");
   const Results results = reports::read_results(scratch.path());
   EXPECT_EQ(results.checks.size(), 1u);
   ASSERT_EQ(results.warnings.size(), 2u);
@@ -147,8 +143,8 @@ TEST(ReadResults, UnknownVersionIsAWarningThatNamesIt) {
 TEST(ReadResults, JsonFilesOfOtherProgramsArePassedOver) {
   const ScratchDirectory scratch;
   ResultLog(scratch.path(), "checks").append(sample_check());
-  write_text(scratch / "benchmark.json", "{\"context\":{},\"benchmarks\":[]}");
-  write_text(scratch / "notes.txt", "not looked at");
+  scratch.write("benchmark.json", "{\"context\":{},\"benchmarks\":[]}");
+  scratch.write("notes.txt", "not looked at");
   const Results results = reports::read_results(scratch.path());
   EXPECT_EQ(results.checks.size(), 1u);
   EXPECT_TRUE(results.warnings.empty());
@@ -158,7 +154,7 @@ TEST(ReadResults, MissingFileAndEmptyDirectoryAreErrorsThatSayWhich) {
   const ScratchDirectory scratch;
   const std::string directory = scratch.path().string();
   EXPECT_EQ(error_of_reading(scratch / "none"), directory + "/none: no such directory");
-  write_text(scratch / "file", "");
+  scratch.write("file", "");
   EXPECT_EQ(error_of_reading(scratch / "file"), directory + "/file: not a directory");
   EXPECT_EQ(error_of_reading(scratch.path()),
             directory + ": holds no results (*.jsonl, or *.json with a format)");

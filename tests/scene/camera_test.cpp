@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
 
 #include <cmath>
 #include <numbers>
@@ -131,7 +132,7 @@ TEST(Camera, DefaultsAreMitsubas) {
 }
 
 TEST(Camera, SizeGivenFromOutsideKeepsTheFieldOfViewAlongItsAxis) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   const auto file = directory.write(
       "scene.xml",
       R"(<scene version="3.0.0"><sensor type="perspective"><float name="fov" value="90"/>
@@ -144,7 +145,7 @@ TEST(Camera, SizeGivenFromOutsideKeepsTheFieldOfViewAlongItsAxis) {
 }
 
 TEST(Camera, SizeGivenFromOutsideIsChecked) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   const auto file = directory.write("scene.xml", scene_with(R"(<shape type="sphere"/>)"));
   EXPECT_THROW(renderer::load_scene(file, {}, renderer::FilmSize{0, 100}), renderer::InputError);
   EXPECT_THROW(renderer::load_scene(file, {}, renderer::FilmSize{1 << 16, 1 << 16}),

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
 
 #include <cmath>
 #include <limits>
@@ -67,7 +68,7 @@ std::string envmap(const std::string& more = {}) {
 }
 
 TEST(Emitter, EnvironmentMapStandsAsInMitsuba) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   write_map(directory.path() / "map.exr");
   const renderer::Scene scene(renderer::load_scene(
       directory.write("scene.xml", envmap(R"(<float name="scale" value="2"/>)"))));
@@ -81,7 +82,7 @@ TEST(Emitter, EnvironmentMapStandsAsInMitsuba) {
 }
 
 TEST(Emitter, EnvironmentMapTurnsWithItsTransform) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   write_map(directory.path() / "map.exr");
   const renderer::Scene scene(renderer::load_scene(directory.write("scene.xml", envmap(R"(
       <transform name="to_world"><rotate x="1" angle="90"/></transform>)"))));
@@ -92,7 +93,7 @@ TEST(Emitter, EnvironmentMapTurnsWithItsTransform) {
 }
 
 TEST(Emitter, EnvironmentMapThatIsNoMapIsRefused) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   const auto refusal = [&](const std::string& text) {
     return refusal_of_file(directory.write("scene.xml", text));
   };
@@ -133,7 +134,7 @@ TEST(Emitter, SamplingBySolidAngleIsForRectanglesAndMeshes) {
 }
 
 TEST(Emitter, TrianglesOfAMeshAreChosenByAreaAndTheMeshLikeAnyOtherLight) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   directory.write("mesh.obj", "v 0 0 0\nv 3 0 0\nv 3 1 0\nv 0 1 0\nv 0 3 0\nf 1 2 4\nf 4 3 5\n");
   const auto description = renderer::load_scene(directory.write("scene.xml", scene_with(R"(
       <shape type="obj"><string name="filename" value="mesh.obj"/>

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,7 +20,7 @@ std::string repeated(const std::string& text, int times) {
 }
 
 TEST(HostileFile, Of100MBIsRefusedUnread) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   const auto file = directory.write("scene.xml", "<scene");
   std::filesystem::resize_file(file, 100u << 20);
   EXPECT_EQ(refusal_of_file(file),
@@ -60,19 +61,19 @@ TEST(HostileFile, WithALongNameGetsAShortMessage) {
 }
 
 TEST(HostileFile, ThatIsADirectoryIsRefused) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   std::filesystem::create_directory(directory.path() / "scene.xml");
   EXPECT_EQ(refusal_of_file(directory.path() / "scene.xml"),
             "scene.xml: is a directory, not a file");
 }
 
 TEST(HostileFile, ThatIsMissingIsRefused) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   EXPECT_EQ(refusal_of_file(directory.path() / "scene.xml"), "scene.xml: there is no such file");
 }
 
 TEST(HostileFile, ThatIsAPipeIsRefusedAtOnce) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   const auto pipe = directory.path() / "scene.xml";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(refusal_of_file(pipe), "scene.xml: is not a regular file");
@@ -80,7 +81,7 @@ TEST(HostileFile, ThatIsAPipeIsRefusedAtOnce) {
 
 TEST(HostileFile, ThatMayNotBeReadIsRefused) {
   if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   const auto file = directory.write("scene.xml", scene_with("<shape type=\"sphere\"/>"));
   std::filesystem::permissions(file, std::filesystem::perms::none);
   EXPECT_EQ(refusal_of_file(file), "scene.xml: cannot be opened: Permission denied");
@@ -109,7 +110,7 @@ TEST(HostileFile, CutAnywhereNeverCrashes) {
       "<default name=\"r\" value=\"1\"/><shape type=\"sphere\"><float name=\"radius\" "
       "value=\"$r\"/><emitter type=\"area\"><rgb name=\"radiance\" value=\"1, 2, "
       "3\"/></emitter></shape>");
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   // The last character is a line break, without which the file is still whole.
   for (std::size_t length = 0; length + 1 < text.size(); ++length) {
     const auto file = directory.write("scene.xml", text.substr(0, length));
@@ -122,7 +123,7 @@ TEST(HostileFile, WithOneByteChangedNeverCrashes) {
   const std::string text = scene_with(
       "<shape type=\"sphere\"><float name=\"radius\" value=\"1\"/><transform "
       "name=\"to_world\"><rotate x=\"1\" angle=\"30\"/></transform></shape>");
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   int refused = 0;
   for (std::size_t at = 0; at < text.size(); ++at) {
     for (const char replacement : {'<', '"', '&', '9', '-', '\xff', '\x01'}) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
 
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@ namespace {
 class RefusedMesh : public testing::TestWithParam<Refusal> {};
 
 TEST_P(RefusedMesh, SaysWhereAndWhy) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   directory.write("mesh.obj", GetParam().text);
   const auto file = directory.write("scene.xml", scene_with(R"(<shape type="obj">
       <string name="filename" value="mesh.obj"/>

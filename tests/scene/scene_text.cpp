@@ -1,32 +1,8 @@
 #include "scene_text.h"
 
-#include <unistd.h>
-
-#include <cstdlib>
-#include <fstream>
-#include <stdexcept>
+#include <plumbline_tests/support.h>
 
 namespace plumbline::tests {
-
-TemporaryDirectory::TemporaryDirectory() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "plumbline_XXXXXX").string();
-  if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary directory");
-  path_ = pattern;
-}
-
-TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::filesystem::path TemporaryDirectory::write(const std::string& name,
-                                                std::string_view content) const {
-  const std::filesystem::path file = path_ / name;
-  std::ofstream out(file, std::ios::binary);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
-  return file;
-}
 
 std::string scene_with(std::string_view body) {
   return std::string("<scene version=\"3.0.0\">\n") + kSensor + "\n" + std::string(body) +
@@ -35,7 +11,7 @@ std::string scene_with(std::string_view body) {
 
 renderer::SceneDescription load_text(const std::string& text,
                                      const std::map<std::string, std::string>& overrides) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   return renderer::load_scene(directory.write("scene.xml", text), overrides);
 }
 
@@ -57,7 +33,7 @@ std::string refusal_of_file(const std::filesystem::path& file,
 
 std::string refusal_of_text(const std::string& text,
                             const std::map<std::string, std::string>& overrides) {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   return refusal_of_file(directory.write("scene.xml", text), overrides);
 }
 

@@ -10,21 +10,6 @@
 /// Scene files made of text, in a directory of their own.
 namespace plumbline::tests {
 
-/// A directory that lives as long as the object.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory();
-  ~TemporaryDirectory();
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path write(const std::string& name, std::string_view content) const;
-
- private:
-  std::filesystem::path path_;
-};
-
 /// A sensor as good as any, on one line.
 inline constexpr const char* kSensor =
     R"(<sensor type="perspective"><float name="fov" value="60"/><film type="hdrfilm"><rfilter type="box"/></film></sensor>)";

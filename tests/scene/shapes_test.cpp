@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
 
 #include <variant>
 
@@ -139,7 +140,7 @@ TEST(Disk, FlipAndMirrorFollowTheRectangle) {
 }
 
 SceneDescription load_with_obj(const std::string& obj, const std::string& properties = "") {
-  const TemporaryDirectory directory;
+  const ScratchDirectory directory;
   directory.write("mesh.obj", obj);
   return renderer::load_scene(directory.write("scene.xml", scene_with(R"(<shape type="obj">
           <string name="filename" value="mesh.obj"/>

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
 
 #include <filesystem>
 #include <fstream>
@@ -93,7 +94,7 @@ TEST(SceneFormatDocument, ExamplesAreTaken) {
   const auto examples = documented_examples();
   EXPECT_GE(examples.size(), 8u);
   for (const std::string& example : examples) {
-    const TemporaryDirectory directory;
+    const ScratchDirectory directory;
     directory.write("bunny.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     renderer::write_exr(directory.path() / "sky.exr", {1, 1, {{1, 1, 1}}, {}, {}, {}});
     // An example is a whole file or a part of one.

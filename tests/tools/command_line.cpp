@@ -1,5 +1,6 @@
 #include "command_line.h"
 
+#include <plumbline_tests/support.h>
 #include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,9 +9,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -27,20 +25,15 @@ const std::string kCommand = PLUMBLINE_COMMAND;
   _exit(127);
 }
 
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 }  // namespace
 
 Outcome run_plumbline(const std::filesystem::path& directory, const std::string& arguments,
                       const std::string& before) {
-  const Scratch outputs;
+  const ScratchDirectory outputs;
   const std::string redirected =
-      arguments.find('>') == std::string::npos ? " >" + outputs.file("out").string() : "";
-  const std::string command = before + " '" + kCommand + "' " + arguments + redirected + " 2>" +
-                              outputs.file("err").string();
+      arguments.find('>') == std::string::npos ? " >" + (outputs / "out").string() : "";
+  const std::string command =
+      before + " '" + kCommand + "' " + arguments + redirected + " 2>" + (outputs / "err").string();
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("cannot fork");
   if (child == 0) become_shell(directory, command);
@@ -78,34 +71,6 @@ bool run_and_kill(const std::filesystem::path& directory, const std::string& arg
     waitpid(child, nullptr, 0);
   }
   return running;
-}
-
-Scratch::Scratch() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "plumbline_XXXXXX").string();
-  if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary directory");
-  path_ = pattern;
-}
-
-Scratch::~Scratch() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-void Scratch::write(const std::string& name, const std::string& content) const {
-  std::ofstream out(file(name), std::ios::binary);
-  out << content;
-}
-
-std::string Scratch::read(const std::string& name) const { return read_file(file(name)); }
-
-std::string Scratch::listing() const {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-    names.insert(entry.path().filename().string());
-  }
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
-  return text;
 }
 
 }  // namespace plumbline::tests

@@ -27,24 +27,4 @@ std::string run_on_terminal(const std::filesystem::path& directory, const std::s
 bool run_and_kill(const std::filesystem::path& directory, const std::string& arguments,
                   double seconds);
 
-/// A directory for one test; gone with the object.
-class Scratch {
- public:
-  Scratch();
-  ~Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path file(const std::string& name) const { return path_ / name; }
-  void write(const std::string& name, const std::string& content) const;
-  std::string read(const std::string& name) const;
-
-  /// Names of all files, sorted, separated by spaces.
-  std::string listing() const;
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace plumbline::tests

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
 
 #include <limits>
 #include <string>
@@ -11,33 +12,34 @@ namespace plumbline::tests {
 namespace {
 
 /// Renders in the scratch directory; 40×30 pixels of a scene take milliseconds.
-void render(const Scratch& scratch, const std::string& arguments) {
+void render(const ScratchDirectory& scratch, const std::string& arguments) {
   const Outcome outcome = run_plumbline(scratch.path(), "render --size 40x30 " + arguments);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
-int compare(const Scratch& scratch, const std::string& arguments) {
+int compare(const ScratchDirectory& scratch, const std::string& arguments) {
   return run_plumbline(scratch.path(), "compare " + arguments).exit_code;
 }
 
 /// The image as another renderer would have written it: pixels, nothing else.
-void strip(const Scratch& scratch, const std::string& from, const std::string& to) {
-  renderer::Image image = renderer::read_exr(scratch.file(from));
+void strip(const ScratchDirectory& scratch, const std::string& from, const std::string& to) {
+  renderer::Image image = renderer::read_exr(scratch / from);
   image.variance.clear();
   image.count.clear();
   image.metadata.clear();
-  renderer::write_exr(scratch.file(to), image);
+  renderer::write_exr(scratch / to, image);
 }
 
 /// The image with every pixel multiplied.
-void scale(const Scratch& scratch, const std::string& from, const std::string& to, float factor) {
-  renderer::Image image = renderer::read_exr(scratch.file(from));
+void scale(const ScratchDirectory& scratch, const std::string& from, const std::string& to,
+           float factor) {
+  renderer::Image image = renderer::read_exr(scratch / from);
   for (renderer::Rgbf& pixel : image.pixels) pixel = pixel * factor;
-  renderer::write_exr(scratch.file(to), image);
+  renderer::write_exr(scratch / to, image);
 }
 
 TEST(CompareCommand, UnbiasedImagePassesAndProvesABound) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   render(scratch, "sphere_light -o a.exr --spp 256");
   const Outcome outcome = run_plumbline(scratch.path(), "compare a.exr --scene sphere_light");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
@@ -47,14 +49,14 @@ TEST(CompareCommand, UnbiasedImagePassesAndProvesABound) {
 }
 
 TEST(CompareCommand, BiasOfThreePercentFails) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   render(scratch, "sphere_light -o a.exr --spp 256");
   scale(scratch, "a.exr", "b.exr", 1.03f);
   EXPECT_EQ(compare(scratch, "b.exr --scene sphere_light"), 1);
 }
 
 TEST(CompareCommand, TooFewSamplesAreInconclusiveWhichIsNotAPass) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   render(scratch, "sphere_light -o a.exr --spp 1 --strategy bsdf");
   const Outcome outcome =
       run_plumbline(scratch.path(), "compare a.exr --scene sphere_light --tolerance 0.0001");
@@ -63,7 +65,7 @@ TEST(CompareCommand, TooFewSamplesAreInconclusiveWhichIsNotAPass) {
 }
 
 TEST(CompareCommand, ImageOfAnotherRendererIsJudgedFromItsResiduals) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   render(scratch, "sphere_light -o a.exr --spp 256");
   strip(scratch, "a.exr", "stripped.exr");
   EXPECT_EQ(compare(scratch, "stripped.exr --scene sphere_light"), 0);
@@ -72,7 +74,7 @@ TEST(CompareCommand, ImageOfAnotherRendererIsJudgedFromItsResiduals) {
 }
 
 TEST(CompareCommand, ParametersAndDepthComeFromTheHeader) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   render(scratch, "furnace_sphere -o a.exr --spp 64 -D albedo=0.25 --max-depth 2");
   EXPECT_EQ(compare(scratch, "a.exr --scene furnace_sphere"), 0);
   strip(scratch, "a.exr", "b.exr");
@@ -81,7 +83,7 @@ TEST(CompareCommand, ParametersAndDepthComeFromTheHeader) {
 }
 
 TEST(CompareCommand, StrategiesAgree) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   render(scratch, "sphere_light -o a.exr --spp 256 --strategy mis --seed 1");
   render(scratch, "sphere_light -o b.exr --spp 256 --strategy light --seed 2");
   EXPECT_EQ(compare(scratch, "a.exr b.exr"), 0);
@@ -90,11 +92,11 @@ TEST(CompareCommand, StrategiesAgree) {
 }
 
 TEST(CompareCommand, ColouredImagesAreJudgedByChannel) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   render(scratch, "sphere_light -o a.exr --spp 256");
-  renderer::Image image = renderer::read_exr(scratch.file("a.exr"));
+  renderer::Image image = renderer::read_exr(scratch / "a.exr");
   for (renderer::Rgbf& pixel : image.pixels) pixel.b *= 1.03f;
-  renderer::write_exr(scratch.file("b.exr"), image);
+  renderer::write_exr(scratch / "b.exr", image);
   const Outcome outcome = run_plumbline(scratch.path(), "compare b.exr --scene sphere_light");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(outcome.out.find("sphere_light, R: image check gives pass"), std::string::npos);
@@ -102,16 +104,16 @@ TEST(CompareCommand, ColouredImagesAreJudgedByChannel) {
 }
 
 TEST(CompareCommand, ImageWithAPixelThatIsNotFiniteFails) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   render(scratch, "sphere_light -o a.exr --spp 256");
-  renderer::Image image = renderer::read_exr(scratch.file("a.exr"));
+  renderer::Image image = renderer::read_exr(scratch / "a.exr");
   image.pixels[7].g = std::numeric_limits<float>::quiet_NaN();
-  renderer::write_exr(scratch.file("b.exr"), image);
+  renderer::write_exr(scratch / "b.exr", image);
   EXPECT_EQ(compare(scratch, "b.exr --scene sphere_light"), 1);
 }
 
 TEST(CompareCommand, ImagesOfDifferentSizesAreBadInput) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   render(scratch, "furnace_open -o a.exr --spp 1");
   ASSERT_EQ(
       run_plumbline(scratch.path(), "render furnace_open -o b.exr --spp 1 --size 8x8").exit_code,
@@ -122,12 +124,12 @@ TEST(CompareCommand, ImagesOfDifferentSizesAreBadInput) {
 }
 
 TEST(CompareCommand, ExactSeesTheLastBit) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   render(scratch, "furnace_open -o a.exr --spp 1");
-  renderer::Image image = renderer::read_exr(scratch.file("a.exr"));
+  renderer::Image image = renderer::read_exr(scratch / "a.exr");
   float& value = image.pixels[45].r;
   value = std::nextafter(value, 2.0f);
-  renderer::write_exr(scratch.file("b.exr"), image);
+  renderer::write_exr(scratch / "b.exr", image);
   const Outcome outcome = run_plumbline(scratch.path(), "compare a.exr b.exr --exact");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(outcome.out.find("1 of 1200 pixels differ, the first at (5, 1)"), std::string::npos);

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
 #include <unistd.h>
 
 #include <string>
@@ -12,7 +13,7 @@ namespace {
 const std::string kQuick = "render furnace_open --spp 1 --size 64x48 ";
 
 TEST(Output, ReplacesAnImage) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   scratch.write("out.exr", "old");
   ASSERT_EQ(run_plumbline(scratch.path(), kQuick + "-o out.exr").exit_code, 0);
   EXPECT_NE(scratch.read("out.exr"), "old");
@@ -20,7 +21,7 @@ TEST(Output, ReplacesAnImage) {
 }
 
 TEST(Output, KilledRenderLeavesTheOldImage) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   scratch.write("out.exr", "old");
   ASSERT_TRUE(run_and_kill(scratch.path(), "render furnace_open -o out.exr --seconds 60", 0.5));
   EXPECT_EQ(scratch.read("out.exr"), "old");
@@ -28,7 +29,7 @@ TEST(Output, KilledRenderLeavesTheOldImage) {
 }
 
 TEST(Output, ThatOutgrowsTheFileSizeLimitLeavesTheOldImageAndIsTheMachinesFault) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   scratch.write("out.exr", "old");
   const Outcome outcome = run_plumbline(scratch.path(), kQuick + "-o out.exr", "ulimit -f 8;");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
@@ -38,7 +39,7 @@ TEST(Output, ThatOutgrowsTheFileSizeLimitLeavesTheOldImageAndIsTheMachinesFault)
 }
 
 TEST(Output, ToAFullDeviceIsTheMachinesFault) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   EXPECT_EQ(run_plumbline(scratch.path(), kQuick + "-o /dev/full").exit_code, 3);
   EXPECT_EQ(run_plumbline(scratch.path(), kQuick + "-o out.exr --json /dev/full").exit_code, 3);
   EXPECT_EQ(run_plumbline(scratch.path(), "list >/dev/full").exit_code, 3);
@@ -47,7 +48,7 @@ TEST(Output, ToAFullDeviceIsTheMachinesFault) {
 }
 
 TEST(Output, ToTheNullDeviceIsFine) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   const Outcome outcome = run_plumbline(scratch.path(), kQuick + "-o /dev/null --json out.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(scratch.read("out.json").find("\"image\":\"\""), std::string::npos);
@@ -56,18 +57,18 @@ TEST(Output, ToTheNullDeviceIsFine) {
 
 TEST(Output, InADirectoryThatMayNotBeWrittenIsBadInput) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
-  const Scratch scratch;
-  std::filesystem::create_directory(scratch.file("closed"));
-  std::filesystem::permissions(scratch.file("closed"), std::filesystem::perms::owner_read);
+  const ScratchDirectory scratch;
+  std::filesystem::create_directory(scratch / "closed");
+  std::filesystem::permissions(scratch / "closed", std::filesystem::perms::owner_read);
   const Outcome outcome = run_plumbline(scratch.path(), kQuick + "-o closed/out.exr");
-  std::filesystem::permissions(scratch.file("closed"), std::filesystem::perms::owner_all);
+  std::filesystem::permissions(scratch / "closed", std::filesystem::perms::owner_all);
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("closed/out.exr: cannot write"), std::string::npos);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve all of memory
 TEST(Memory, ThatRunsOutIsTheMachinesFault) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   // 64 million pixels of moments take 3.7 GB.
   const Outcome outcome = run_plumbline(
       scratch.path(), "render furnace_open -o out.exr --spp 1 --size 8192x8192 --threads 1",

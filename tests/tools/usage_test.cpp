@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
 
 #include <string>
 #include <vector>
@@ -9,7 +10,7 @@ namespace plumbline::tests {
 namespace {
 
 TEST(Help, ShowsExamplesOfEveryCommand) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   for (const char* arguments : {"--help", "list --help", "render --help", "compare --help",
                                 "calibrate --help", "report --help"}) {
     const Outcome outcome = run_plumbline(scratch.path(), arguments);
@@ -20,7 +21,7 @@ TEST(Help, ShowsExamplesOfEveryCommand) {
 }
 
 TEST(Calibrate, PrintsATableAndItsExitCodeSaysWhetherAllIsAsPromised) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   const Outcome outcome =
       run_plumbline(scratch.path(), "calibrate --only \"same code\" --results results");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -31,7 +32,7 @@ TEST(Calibrate, PrintsATableAndItsExitCodeSaysWhetherAllIsAsPromised) {
 }
 
 TEST(List, ShowsEachSceneWithItsAnswerAndParameters) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   const Outcome outcome = run_plumbline(scratch.path(), "list scenes");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.out.find("furnace_open"), std::string::npos);
@@ -40,7 +41,7 @@ TEST(List, ShowsEachSceneWithItsAnswerAndParameters) {
 }
 
 TEST(List, NamesAreForScripts) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   EXPECT_EQ(run_plumbline(scratch.path(), "list heuristics --names").out,
             "balance\npower\ncutoff\nmaximum\n");
   EXPECT_EQ(run_plumbline(scratch.path(), "list shapes --names").out,
@@ -48,7 +49,7 @@ TEST(List, NamesAreForScripts) {
 }
 
 TEST(List, WithoutATopicShowsAll) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   const std::string out = run_plumbline(scratch.path(), "list").out;
   for (const char* name : {"furnace_cube", "one-sample", "balance", "diffuse", "constant"}) {
     EXPECT_NE(out.find(name), std::string::npos) << name;
@@ -61,7 +62,7 @@ struct Misuse {
 };
 
 TEST(Misuse, HasExitCodeTwoAndAMessage) {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   scratch.write("scene.xml", "<scene version=\"3.0.0\">\n<shap/></scene>");
   scratch.write("text.exr", "not an image");
   const std::vector<Misuse> cases = {

@@ -48,6 +48,13 @@ class ScratchDirectory {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
 
+  /// @return the path of the file written
+  std::filesystem::path write(std::string_view name, std::string_view content) const;
+  std::string read(std::string_view name) const;
+
+  /// The names of the files in it, sorted, with spaces between.
+  std::string listing() const;
+
  private:
   std::filesystem::path path_;
 };
