@@ -1,6 +1,5 @@
 #include <benchmark/benchmark.h>
 
-#include <ctime>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,13 +10,6 @@
 
 namespace plumbline::bench {
 namespace {
-
-/// CPU time of this thread [s]: a neighbour's load does not enter it.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 double seconds_of_technique(const renderer::Scene& scene, std::size_t technique) {
   constexpr int kSamplesPerPixel = 100;

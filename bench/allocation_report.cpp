@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "allocation.h"
+#include "publish.h"
 
 namespace plumbline::bench {
 namespace {
@@ -82,32 +83,10 @@ std::vector<Column> columns(bool mixture) {
 
 std::string group() { return "Sample allocation on Veach's plates"; }
 
-void print(const reports::Table& table) {
-  fmt::print("\n  {}\n", table.title);
-  std::vector<std::size_t> widths;
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    std::size_t width = table.columns[c].size();
-    for (const auto& row : table.rows) width = std::max(width, row[c].size());
-    widths.push_back(width);
-  }
-  const auto line = [&](const std::vector<std::string>& cells) {
-    fmt::print("  {:<{}}", cells[0], widths[0]);
-    for (std::size_t c = 1; c < cells.size(); ++c) fmt::print("  {:>{}}", cells[c], widths[c]);
-    fmt::print("\n");
-  };
-  line(table.columns);
-  for (const auto& row : table.rows) line(row);
-}
-
-void publish(reports::ResultLog& log, reports::Table table) {
-  table.group = group();
-  print(table);
-  log.append(table);
-}
-
 reports::Table efficiency_table(const AllocationScene& scene, const AllocationResults& results,
                                 bool mixture) {
   reports::Table table;
+  table.group = group();
   table.title = fmt::format(
       "{}: efficiency against equal counts, {}", scene.title,
       mixture ? "by the variance of random mixtures" : "by the variance of the counts drawn");
@@ -138,6 +117,7 @@ reports::Table efficiency_table(const AllocationScene& scene, const AllocationRe
 
 reports::Table check_table(const AllocationScene& scene, const AllocationResults& results) {
   reports::Table table;
+  table.group = group();
   table.title = scene.title + ": the renders against the exact integrals";
   table.caption =
       "Bias: mean over pixels of (pixel − integral), in standard deviations of an equal-MIS pixel "
@@ -197,6 +177,7 @@ void report_costs(reports::ResultLog& log, const AllocationScene& scene,
     return run.bsdf_share * cost_ratio.value + 1 - run.bsdf_share;
   };
   reports::Table table;
+  table.group = group();
   table.title = scene.title + ": cost of a sample";
   table.caption = fmt::format(
       "CPU time per sample on one thread over that of equal, interleaved; the part of it that the "

@@ -12,6 +12,7 @@
 #include "equal_error.h"
 #include "shadow_rays.h"
 #include "speed_error.h"
+#include "variance_claims.h"
 
 namespace {
 
@@ -43,16 +44,16 @@ plumbline::reports::ResultLog fresh_log(const std::filesystem::path& results, co
 int main(int argc, char** argv) try {
   CLI::App app{
       "Benchmarks of Plumbline: equal error, shadow rays, speed against error, allocation, "
-      "sampling "
-      "cost"};
+      "variance "
+      "claims, sampling cost"};
   std::filesystem::path results;
   std::string only;
   bool full = false;
   app.add_option("--results", results, "Folder for the JSON results")->required();
   app.add_flag("--full", full, "Everything, instead of the one-minute set");
   app.add_option("--only", only, "One part")
-      ->check(CLI::IsMember(
-          {"equal-error", "shadow-rays", "speed-error", "allocation", "sampling-cost"}));
+      ->check(CLI::IsMember({"equal-error", "shadow-rays", "speed-error", "allocation",
+                             "variance-claims", "sampling-cost"}));
   CLI11_PARSE(app, argc, argv);
 
   std::filesystem::create_directories(results);
@@ -69,6 +70,10 @@ int main(int argc, char** argv) try {
   measure("allocation", "allocation", [&results](plumbline::reports::ResultLog& log, bool all) {
     measure_allocation(log, results, all);
   });
+  // Not of the one-minute set: the claims do not change from day to day.
+  if (full || only == "variance-claims") {
+    measure("variance-claims", "variance_claims", measure_variance_claims);
+  }
   if (wanted("sampling-cost")) measure_sampling_cost(results, full);
   return 0;
 } catch (const std::exception& error) {

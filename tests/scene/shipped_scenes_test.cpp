@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <plumbline_tests/support.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -68,6 +70,50 @@ TEST(ShippedScenes, AreThereForPbrtWhereItHasTheMaterials) {
       EXPECT_EQ(count(text, "  Shape \""), count(xml, "<shape ")) << pbrt;
       EXPECT_EQ(count(text, "AreaLightSource"), count(xml, "<emitter type=\"area\"")) << pbrt;
       EXPECT_EQ(count(text, "Camera \"perspective\""), 1u) << pbrt;
+    }
+  }
+}
+
+constexpr int kSkyWidth = 64, kSkyHeight = 32;
+
+/// Radiance of the skies of bench/scenes/outdoor.xml at the centre of a pixel, rows from the
+/// zenith.
+renderer::Rgbf sky_radiance(const std::string& sky, int row, int column) {
+  constexpr int kSunRow = 8, kSunColumn = 40;
+  const auto theta = [](int y) { return (y + 0.5) * renderer::pi<double>() / kSkyHeight; };
+  const double turn = (column - kSunColumn) * 2 * renderer::pi<double>() / kSkyWidth;
+  const auto rgb = [](double r, double g, double b) {
+    return renderer::Rgbf{static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)};
+  };
+  if (row >= kSkyHeight / 2) return rgb(0.1, 0.1, 0.1);
+  // Moon and Spencer 1942: (1 + 2 cosθ)/3 of the zenith.
+  if (sky == "overcast") {
+    const double grey = (1 + 2 * std::cos(theta(row))) / 3;
+    return rgb(grey, grey, grey);
+  }
+  const double height = 2 * theta(row) / renderer::pi<double>();  // 0 at the zenith, 1 below
+  const double blue = 1 + 2 * height * height * height * height;
+  if (sky == "clear" && row == kSunRow && column == kSunColumn) return rgb(2100, 1950, 1700);
+  // The haze spreads the sun over a standard deviation of 0.12 rad.
+  const double cos_to_sun = std::cos(theta(row)) * std::cos(theta(kSunRow)) +
+                            std::sin(theta(row)) * std::sin(theta(kSunRow)) * std::cos(turn);
+  const double angle = std::acos(std::min(cos_to_sun, 1.0));
+  const double sun = sky == "hazy" ? 40 * std::exp(-angle * angle / (2 * 0.12 * 0.12)) : 0;
+  return rgb(0.4 * blue + 1.05 * sun, 0.6 * blue + sun, blue + 0.85 * sun);
+}
+
+TEST(ShippedScenes, SkiesAreThoseOfTheirFormulas) {
+  for (const std::string sky : {"clear", "hazy", "overcast"}) {
+    const renderer::Image image =
+        renderer::read_exr(kSource / "bench/scenes" / ("outdoor_" + sky + ".exr"));
+    ASSERT_EQ(image.width, kSkyWidth);
+    ASSERT_EQ(image.height, kSkyHeight);
+    for (int i = 0; i < kSkyWidth * kSkyHeight; ++i) {
+      const renderer::Rgbf expected = sky_radiance(sky, i / kSkyWidth, i % kSkyWidth);
+      const renderer::Rgbf& pixel = image.pixels[static_cast<std::size_t>(i)];
+      ASSERT_NEAR(pixel.r, expected.r, 1e-6 * static_cast<double>(expected.r)) << sky << " " << i;
+      ASSERT_NEAR(pixel.g, expected.g, 1e-6 * static_cast<double>(expected.g)) << sky << " " << i;
+      ASSERT_NEAR(pixel.b, expected.b, 1e-6 * static_cast<double>(expected.b)) << sky << " " << i;
     }
   }
 }
