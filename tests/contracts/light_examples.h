@@ -1,13 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include <plumbline/renderer/light/light.h>
+#include "even_chart.h"
 
 namespace plumbline::tests {
 
@@ -17,10 +20,9 @@ struct LightExample {
   renderer::Light light;
   renderer::Vec3f reference;
 
-  /// Whether the density jumps inside of its support. No cubature certifies its integral then; the
-  /// Jacobian and the pointwise checks hold all the same, and the parts are added up in closed
-  /// form.
-  bool jumps = false;
+  /// Where the density jumps inside of its support: what makes it even. No cubature certifies its
+  /// integral over the sphere then.
+  std::optional<EvenChart> chart{};
 };
 
 /// Lights worth checking of one alternative of `renderer::Light`. The type list drives the tests:
@@ -114,15 +116,45 @@ struct LightExamples<renderer::ConstantEnvironment> {
   }
 };
 
-/// A small map, brighter in the north, with one bright pixel in the south; `compensation`, as in
-/// renderer::EnvironmentTable, leaves the others there out.
+inline constexpr int kSmallMapWidth = 8, kSmallMapHeight = 5;
+
+/// A small map, brighter in the north, with one bright pixel in the south, in units of kRadiance.
+inline std::vector<double> small_map_greys() {
+  std::vector<double> greys;
+  for (int i = 0; i < kSmallMapWidth * kSmallMapHeight; ++i) {
+    greys.push_back(i == 13 ? 20 : i < 8 ? 8 + i * 5 % 8 : 1 + i % 2);
+  }
+  return greys;
+}
+
+/// `compensation`, as in renderer::EnvironmentTable, leaves out all but the north and that pixel.
 inline std::shared_ptr<const renderer::EnvironmentTable> small_map(bool compensation) {
   std::vector<renderer::Rgbf> pixels;
-  for (int i = 0; i < 8 * 5; ++i) {
-    const float grey = i == 13 ? 20.0f : static_cast<float>(i < 8 ? 8 + i * 5 % 8 : 1 + i % 2);
-    pixels.push_back(grey * kRadiance);
+  for (const double grey : small_map_greys()) {
+    pixels.push_back(static_cast<float>(grey) * kRadiance);
   }
-  return std::make_shared<renderer::EnvironmentTable>(8, 5, std::move(pixels), compensation);
+  return std::make_shared<renderer::EnvironmentTable>(kSmallMapWidth, kSmallMapHeight,
+                                                      std::move(pixels), compensation);
+}
+
+using MapAxes = std::array<Direction, 3>;
+inline constexpr MapAxes kUnturned{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+inline EvenChart small_map_chart(const MapAxes& axes = kUnturned) {
+  return pixel_chart(kSmallMapWidth, kSmallMapHeight, small_map_greys(), axes);
+}
+
+/// Of each pixel what it has above the mean over the sphere (Karlík et al. 2019).
+inline EvenChart compensated_map_chart() {
+  std::vector<double> greys = small_map_greys();
+  double mean = 0;
+  for (std::size_t i = 0; i < greys.size(); ++i) {
+    const double row = static_cast<double>(i / kSmallMapWidth);
+    const double step = renderer::pi<double>() / kSmallMapHeight;
+    mean += greys[i] * (std::cos(row * step) - std::cos((row + 1) * step)) / 2 / kSmallMapWidth;
+  }
+  for (double& grey : greys) grey = std::max(0.0, grey - mean);
+  return pixel_chart(kSmallMapWidth, kSmallMapHeight, greys, kUnturned);
 }
 
 template <>
@@ -130,23 +162,26 @@ struct LightExamples<renderer::EnvironmentMap> {
   static NamedLights all() {
     using renderer::EnvironmentMap, renderer::EnvironmentTable;
     const float s = std::sqrt(0.5f);
+    const double d = std::sqrt(0.5);
     const auto flat = [](const renderer::Rgbf& radiance, bool compensation) {
       return EnvironmentMap{std::make_shared<EnvironmentTable>(
           3, 2, std::vector<renderer::Rgbf>(6, radiance), compensation)};
     };
     const renderer::Vec3f origin{0, 0, 0};
-    return {
-        {"EnvironmentMap/as it stands", EnvironmentMap{small_map(false)}, origin, true},
-        {"EnvironmentMap/turned and scaled",
-         EnvironmentMap{small_map(false), {{{s, 0, s}, {0, 1, 0}, {-s, 0, s}}}, 2}, origin, true},
-        {"EnvironmentMap/compensated", EnvironmentMap{small_map(true)}, origin, true},
-        {"EnvironmentMap/constant", flat(kRadiance, false), origin},
-        {"EnvironmentMap/constant, compensated", flat(kRadiance, true), origin},
-        {"EnvironmentMap/black", flat({0, 0, 0}, false), origin},
-        {"EnvironmentMap/one pixel",
-         EnvironmentMap{std::make_shared<EnvironmentTable>(
-             1, 1, std::vector<renderer::Rgbf>(1, kRadiance), false)},
-         origin}};
+    return {{"EnvironmentMap/as it stands", EnvironmentMap{small_map(false)}, origin,
+             small_map_chart()},
+            {"EnvironmentMap/turned and scaled",
+             EnvironmentMap{small_map(false), {{{s, 0, s}, {0, 1, 0}, {-s, 0, s}}}, 2}, origin,
+             small_map_chart({{{d, 0, d}, {0, 1, 0}, {-d, 0, d}}})},
+            {"EnvironmentMap/compensated", EnvironmentMap{small_map(true)}, origin,
+             compensated_map_chart()},
+            {"EnvironmentMap/constant", flat(kRadiance, false), origin},
+            {"EnvironmentMap/constant, compensated", flat(kRadiance, true), origin},
+            {"EnvironmentMap/black", flat({0, 0, 0}, false), origin},
+            {"EnvironmentMap/one pixel",
+             EnvironmentMap{std::make_shared<EnvironmentTable>(
+                 1, 1, std::vector<renderer::Rgbf>(1, kRadiance), false)},
+             origin}};
   }
 };
 
@@ -155,10 +190,12 @@ struct LightExamples<renderer::SunAndSky> {
   static NamedLights all() {
     using renderer::SunAndSky;
     const renderer::Vec3f high = renderer::normalize(renderer::Vec3f{0.2f, -0.3f, 0.9f});
+    const renderer::Vec3d unit = renderer::normalize(renderer::vec_cast<double>(high));
+    const Direction exact_high{unit.x, unit.y, unit.z};
     constexpr float kSmall = 1.1e-5f;  // of the sun in the sky
     const renderer::Vec3f origin{0, 0, 0};
     return {{"SunAndSky/sun with sky", SunAndSky{high, kSmall, kRadiance * 1e4f, kRadiance}, origin,
-             true},
+             cone_chart(exact_high, static_cast<double>(kSmall))},
             {"SunAndSky/sun alone", SunAndSky{high, kSmall, kRadiance, {0, 0, 0}}, origin},
             {"SunAndSky/half of the sky", SunAndSky{high, 1, kRadiance, kRadiance}, origin}};
   }

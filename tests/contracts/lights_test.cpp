@@ -48,15 +48,26 @@ SamplingPair light_pair(const LightExample& example) {
   return pair;
 }
 
+/// The same pair on a domain where its density does not jump.
+SamplingPair evened(SamplingPair pair, const EvenChart& chart) {
+  pair.domain = verify::Domain::surface(chart.from_square, chart.to_square, chart.solid_angle);
+  return pair;
+}
+
 class Lights : public testing::TestWithParam<LightExample> {};
 
 TEST_P(Lights, KeepTheContract) {
   const SamplingPair pair = light_pair<double>(GetParam());
   verify::ContractOptions options;
   options.seed = check_seed(pair.name);
+  const auto& chart = GetParam().chart;
   for (const verify::CheckResult& r :
-       GetParam().jumps ? check_pointwise(pair, options) : check_pair(pair, options)) {
+       chart ? check_pointwise(pair, options) : check_pair(pair, options)) {
     expect_verdict(r);
+  }
+  if (chart) {
+    expect_verdict(check_integral(evened(pair, *chart), options));
+    expect_verdict(check_chi_square(evened(pair, *chart), options));
   }
 }
 
@@ -66,7 +77,8 @@ TEST_P(Lights, SampleTheirDensityInFloatAsRendered) {
   verify::ContractOptions options;
   options.seed = check_seed(pair.name);
   for (const verify::CheckResult& r : check_pointwise(pair, options)) expect_verdict(r);
-  if (!GetParam().jumps) expect_verdict(check_chi_square(pair, options));
+  if (GetParam().chart) pair = evened(pair, *GetParam().chart);
+  expect_verdict(check_chi_square(pair, options));
 }
 
 TEST_P(Lights, PdfIsTheInverseJacobianOfSample) {
@@ -275,6 +287,75 @@ TEST(EnvironmentMap, PixelsCoverTheSphereInAnyNumberOfRows) {
     }
     EXPECT_NEAR(sum, 1, 1e-12) << rows;
   }
+}
+
+/// The small map as a pair on its even chart, with a fault put in.
+SamplingPair faulty_map(const std::string& fault) {
+  const LightExample example = LightExamples<renderer::EnvironmentMap>::all().front();
+  SamplingPair pair = evened(light_pair<double>(example), *example.chart);
+  pair.name = "control/environment map, " + fault;
+  return pair;
+}
+
+double row_of(const verify::Vec3& wi) {
+  return std::floor(std::acos(wi[1]) / renderer::pi<double>() * kSmallMapHeight);
+}
+
+void expect_chi_square_fails(const SamplingPair& pair) {
+  verify::ContractOptions options;
+  options.seed = check_seed(pair.name);
+  verify::CheckResult r = check_chi_square(pair, options);
+  r.expected = verify::Verdict::fail;
+  expect_verdict(r);
+}
+
+TEST(EnvironmentMap, ADensityOffInOneRowOfPixelsFails) {
+  SamplingPair pair = faulty_map("one row 2 % off");
+  pair.pdf = [right = pair.pdf](const verify::Vec3& wi) {
+    return right(wi) * (row_of(wi) == 2 ? 1.02 : 1);
+  };
+  expect_chi_square_fails(pair);
+}
+
+TEST(EnvironmentMap, ADensityWithoutTheSineOfItsRowFails) {
+  SamplingPair pair = faulty_map("pdf without sinθ");
+  pair.pdf = [right = pair.pdf](const verify::Vec3& wi) {
+    const double step = renderer::pi<double>() / kSmallMapHeight;
+    const double row = row_of(wi);
+    const double exact = std::cos(row * step) - std::cos((row + 1) * step);
+    return right(wi) * exact / (2.0 / kSmallMapHeight);
+  };
+  expect_chi_square_fails(pair);
+}
+
+TEST(EnvironmentMap, SamplesThatFollowLuminanceWithoutSolidAngleFail) {
+  // Weights that undo the solid angle by which rows are chosen; the density stays right.
+  SamplingPair pair = faulty_map("rows without their solid angle");
+  std::vector<renderer::Rgbf> pixels;
+  const std::vector<double> greys = small_map_greys();
+  for (std::size_t i = 0; i < greys.size(); ++i) {
+    const double step = renderer::pi<double>() / kSmallMapHeight;
+    const double row = static_cast<double>(i / kSmallMapWidth);
+    pixels.push_back(kRadiance * static_cast<float>(greys[i] / (std::cos(row * step) -
+                                                                std::cos((row + 1) * step))));
+  }
+  LightExample wrong = LightExamples<renderer::EnvironmentMap>::all().front();
+  wrong.light = renderer::EnvironmentMap{std::make_shared<renderer::EnvironmentTable>(
+      kSmallMapWidth, kSmallMapHeight, std::move(pixels), false)};
+  pair.sample = light_pair<double>(wrong).sample;
+  expect_chi_square_fails(pair);
+}
+
+TEST(SunAndSky, ASunChosenMoreOftenThanStatedFails) {
+  const LightExample example = LightExamples<renderer::SunAndSky>::all().front();
+  SamplingPair pair = evened(light_pair<double>(example), *example.chart);
+  pair.name = "control/sun and sky, sun chosen too often";
+  pair.sample = [right = pair.sample](const verify::Uniforms& u) {
+    verify::Uniforms more = u;
+    more[0] = std::pow(u[0], 1.02);  // ½ becomes 0.493: 1 % more of the sun
+    return right(more);
+  };
+  expect_chi_square_fails(pair);
 }
 
 TEST(Lights, TheBatteryFailsAreaInThePlaceOfItsInverse) {
