@@ -7,6 +7,7 @@
 #include <plumbline/renderer/render/direct.h>
 #include <plumbline/renderer/render/render.h>
 #include "allocation.h"
+#include "clock.h"
 
 namespace plumbline::bench {
 namespace {

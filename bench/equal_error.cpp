@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <plumbline/renderer/render/render.h>
+#include "publish.h"
 #include "scenes.h"
 #include "statistics.h"
 
@@ -100,10 +101,7 @@ void measure(const Comparison& comparison, reports::ResultLog& log, bool full) {
       description.camera.width, description.camera.height, kSamples, kThreads,
       full ? "" : fmt::format(", time × {}", shrink * shrink), error.value, error.low, error.high,
       kReplicates, time.value, time.low, time.high, reference.rel_mse);
-  log.append(bar);
-  fmt::print("  {:16} {:.4g} [{:.4g}, {:.4g}] relMSE × s, bar {}: {}\n    {}\n    {}\n",
-             comparison.title, bar.measured, bar.low, bar.high, bar.limit, verdict(bar), bar.note,
-             bar.comparison);
+  publish(log, bar);
 }
 
 }  // namespace

@@ -4,12 +4,15 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
+#include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <plumbline/reports/results.h>
 #include "allocation.h"
 #include "equal_error.h"
+#include "ray_replay.h"
 #include "shadow_rays.h"
 #include "speed_error.h"
 #include "variance_claims.h"
@@ -39,42 +42,50 @@ plumbline::reports::ResultLog fresh_log(const std::filesystem::path& results, co
   return {results, name};
 }
 
+using Measure = std::function<void(plumbline::reports::ResultLog&, bool full)>;
+
+/// A part of the benchmarks: its name on the command line, its log, and what fills it.
+struct Part {
+  const char *name, *log;
+  Measure measure;
+  bool only_full = false;  ///< not of the one-minute set
+};
+
+std::vector<Part> make_parts(const std::filesystem::path& results) {
+  using namespace plumbline::bench;
+  using plumbline::reports::ResultLog;
+  return {{"equal-error", "bars_equal_error", measure_equal_error},
+          {"ray-replay", "bars_ray_replay", measure_ray_replay},
+          {"shadow-rays", "shadow_rays", measure_shadow_rays},
+          {"speed-error", "speed_error", measure_speed_against_error},
+          {"allocation", "allocation",
+           [results](ResultLog& log, bool full) { measure_allocation(log, results, full); }},
+          {"variance-claims", "variance_claims", measure_variance_claims, true},
+          {"sampling-cost", "sampling_cost_table",
+           [results](ResultLog&, bool full) { measure_sampling_cost(results, full); }}};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
-  CLI::App app{
-      "Benchmarks of Plumbline: equal error, shadow rays, speed against error, allocation, "
-      "variance "
-      "claims, sampling cost"};
+  CLI::App app{"Benchmarks of Plumbline, part by part"};
   std::filesystem::path results;
   std::string only;
   bool full = false;
   app.add_option("--results", results, "Folder for the JSON results")->required();
   app.add_flag("--full", full, "Everything, instead of the one-minute set");
-  app.add_option("--only", only, "One part")
-      ->check(CLI::IsMember({"equal-error", "shadow-rays", "speed-error", "allocation",
-                             "variance-claims", "sampling-cost"}));
+  app.add_option("--only", only, "One part: its name");
   CLI11_PARSE(app, argc, argv);
 
   std::filesystem::create_directories(results);
-  using namespace plumbline::bench;
-  const auto wanted = [&](const char* part) { return only.empty() || only == part; };
-  const auto measure = [&](const char* part, const char* file, const auto& function) {
-    if (!wanted(part)) return;
-    auto log = fresh_log(results, file);
-    function(log, full);
-  };
-  measure("equal-error", "bars_equal_error", measure_equal_error);
-  measure("shadow-rays", "shadow_rays", measure_shadow_rays);
-  measure("speed-error", "speed_error", measure_speed_against_error);
-  measure("allocation", "allocation", [&results](plumbline::reports::ResultLog& log, bool all) {
-    measure_allocation(log, results, all);
-  });
-  // Not of the one-minute set: the claims do not change from day to day.
-  if (full || only == "variance-claims") {
-    measure("variance-claims", "variance_claims", measure_variance_claims);
+  bool found = false;
+  for (const Part& part : make_parts(results)) {
+    if (only.empty() ? part.only_full && !full : only != part.name) continue;
+    found = true;
+    auto log = fresh_log(results, part.log);
+    part.measure(log, full);
   }
-  if (wanted("sampling-cost")) measure_sampling_cost(results, full);
+  if (!found) throw std::invalid_argument("no part is named '" + only + "'");
   return 0;
 } catch (const std::exception& error) {
   fmt::print(stderr, "plumbline_bench: {}\n", error.what());

@@ -27,4 +27,16 @@ void publish(reports::ResultLog& log, const reports::Table& table) {
   log.append(table);
 }
 
+void publish(reports::ResultLog& log, const reports::Bar& bar) {
+  fmt::print("  {}: {:.4g} [{:.4g}, {:.4g}] {}, bar {} {:.4g}: {}\n    {}\n", bar.name,
+             bar.measured, bar.low, bar.high, bar.unit, bar.at_least ? "≥" : "≤", bar.limit,
+             verdict(bar), bar.note);
+  if (!bar.comparison.empty()) fmt::print("    {}\n", bar.comparison);
+  log.append(bar);
+}
+
+std::string text_of(const Estimate& e) {
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", e.value, e.low, e.high);
+}
+
 }  // namespace plumbline::bench

@@ -1,8 +1,11 @@
 #include "scenes.h"
 
+#include <utility>
+
 #include <plumbline/analytic/known_scene.h>
 #include <plumbline/renderer/render/render.h>
 #include <plumbline/renderer/scene/load_scene.h>
+#include "made_scenes.h"
 
 namespace plumbline::bench {
 
@@ -14,7 +17,9 @@ std::filesystem::path scene_path(const std::string& name) {
 }
 
 renderer::SceneDescription load_at_size(const std::string& name, int width, int height) {
-  renderer::SceneDescription description = renderer::load_scene(scene_path(name));
+  auto made = made_scene(name);
+  renderer::SceneDescription description =
+      made ? std::move(*made) : renderer::load_scene(scene_path(name));
   description.camera.width = width;
   description.camera.height = height;
   return description;

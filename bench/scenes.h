@@ -13,7 +13,8 @@ namespace plumbline::bench {
 /// @throws renderer::InputError for a name that neither has
 std::filesystem::path scene_path(const std::string& name);
 
-/// The scene at another resolution, with square pixels as before.
+/// The scene at another resolution, with square pixels as before: one of made_scene() or from a
+/// file.
 renderer::SceneDescription load_at_size(const std::string& name, int width, int height);
 
 /// Luminance of the exact image, or of a render with `reference_spp` samples per pixel where no
