@@ -21,3 +21,44 @@ function addBars() {
     'Met or missed: the whole interval lies on one side of the bar. Indicative: measured on less than the bar ' +
     'asks for, as the one-minute benchmarks are; ./run bench --full measures it.', sortableTable(columns, bars));
 }
+
+// What verdicts cost
+
+function addVerdictCost() {
+  const checks = data.checks.filter((c) => toNumber(c.seconds) > 0);
+  if (checks.length === 0) return;
+  const sum = (list, get) => list.reduce((total, c) => total + toNumber(get(c)), 0);
+  const kinds = [...groupBy(checks, (c) => c.check)].map(([kind, list]) => {
+    const times = list.map((c) => toNumber(c.seconds)).sort((a, b) => a - b);
+    return {
+      kind,
+      count: list.length,
+      seconds: sum(list, (c) => c.seconds),
+      median: times[Math.floor(times.length / 2)],
+      samples: sum(list, (c) => c.samples),
+    };
+  }).sort((a, b) => b.seconds - a.seconds);
+  const kindColumns = [
+    textColumn('Kind of check', (k) => k.kind),
+    numberColumn('Checks', (k) => k.count, String),
+    numberColumn('Seconds', (k) => k.seconds, formatSeconds),
+    numberColumn('Seconds per check', (k) => k.seconds / k.count, formatSeconds),
+    numberColumn('Median', (k) => k.median, formatSeconds),
+    numberColumn('Samples', (k) => k.samples, formatCount),
+    numberColumn('Samples per check', (k) => Math.round(k.samples / k.count), formatCount),
+  ];
+  const dearest = [...checks].sort((a, b) => toNumber(b.seconds) - toNumber(a.seconds)).slice(0, 10);
+  const checkColumns = [
+    textColumn('Check', (c) => c.check),
+    textColumn('Subject', (c) => c.subject),
+    {name: 'Verdict', cell: verdictBadge},
+    numberColumn('Seconds', (c) => c.seconds, formatSeconds),
+    numberColumn('Samples', (c) => c.samples, formatCount),
+    numberColumn('ns per sample', (c) => (1e9 * toNumber(c.seconds)) / c.samples, (x) => formatAligned(x, 3)),
+  ];
+  const card = (title, table) => element('div', {className: 'card'}, element('h3', {}, title), table);
+  addSection('verdict-cost', 'Cost of a verdict', checks.length,
+    'Time and samples that the checks took, by kind, and the ten dearest of them.',
+    element('div', {}, card('By kind', sortableTable(kindColumns, kinds)),
+      card('The ten dearest', sortableTable(checkColumns, dearest))));
+}

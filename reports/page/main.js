@@ -82,6 +82,7 @@ addCalibration();
 addStability();
 addSpeed();
 addRayCosts();
+addVerdictCost();
 addFigures();
 document.getElementById('overview').after(document.getElementById('contents'));
 drawCharts();

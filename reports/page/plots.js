@@ -151,6 +151,13 @@ function curveStyle(curve, curves) {
   };
 }
 
+/** Of many curves those that a reader looks for first; a click in the legend shows the others. */
+function shownAtFirst(curve, curves) {
+  if (curves.length <= 10) return true;
+  if (curve.strategy === 'mis') return curve.heuristic === 'power';
+  return curve.sampler === 'independent' && ['', 'balance', 'root-v2'].includes(curve.heuristic);
+}
+
 const rootError = (relMse) => Math.sqrt(toNumber(relMse));
 
 function curveDatasets(scene, samplers) {
@@ -162,7 +169,7 @@ function curveDatasets(scene, samplers) {
       x,
       y: toNumber(curve.factor) * x ** toNumber(curve.slope),
     }));
-    const common = {curve: name, borderColor: cssColor(color), backgroundColor: cssColor(color)};
+    const common = {curve: name, hidden: !shownAtFirst(curve, scene.curves), borderColor: cssColor(color), backgroundColor: cssColor(color)};
     return [
       {
         ...common,
@@ -237,7 +244,7 @@ function addSpeed() {
       plot(() => curveDatasets(scene, samplers), x, y, `Error against time, ${scene.scene}`),
       slopeTable(scene, samplers)));
   addSection('speed', 'Error against time', data.speed.length,
-    'Lower and further left is better. Bars: 95 % intervals over independent replicates. Lines: the fitted ' +
+    'Lower and further left is better; a click in the legend shows or hides a curve. Bars: 95 % intervals over independent replicates. Lines: the fitted ' +
     'power law; a plain Monte Carlo estimator falls with slope −1/2.',
     element('div', {className: 'plots'}, cards));
 }
