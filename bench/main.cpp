@@ -1,4 +1,3 @@
-#include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -13,28 +12,13 @@
 #include "allocation.h"
 #include "equal_error.h"
 #include "ray_replay.h"
+#include "sampling_cost.h"
+#include "scaling.h"
 #include "shadow_rays.h"
 #include "speed_error.h"
 #include "variance_claims.h"
 
 namespace {
-
-/// Google Benchmark takes its settings as a command line.
-void measure_sampling_cost(const std::filesystem::path& results, bool full) {
-  std::vector<std::string> words{"plumbline_bench",
-                                 "--benchmark_out_format=json",
-                                 "--benchmark_out=" + (results / "sampling_cost.json").string(),
-                                 "--benchmark_enable_random_interleaving=true",
-                                 std::string("--benchmark_min_time=") + (full ? "0.2" : "0.02"),
-                                 std::string("--benchmark_repetitions=") + (full ? "9" : "5"),
-                                 "--benchmark_report_aggregates_only=true"};
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  int argc = static_cast<int>(argv.size());
-  benchmark::Initialize(&argc, argv.data());
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-}
 
 /// A log of its own for one part, without what an earlier run left there.
 plumbline::reports::ResultLog fresh_log(const std::filesystem::path& results, const char* name) {
@@ -57,12 +41,13 @@ std::vector<Part> make_parts(const std::filesystem::path& results) {
   return {{"equal-error", "bars_equal_error", measure_equal_error},
           {"ray-replay", "bars_ray_replay", measure_ray_replay},
           {"shadow-rays", "shadow_rays", measure_shadow_rays},
+          {"scaling", "bars_scaling", measure_scaling},
           {"speed-error", "speed_error", measure_speed_against_error},
           {"allocation", "allocation",
            [results](ResultLog& log, bool full) { measure_allocation(log, results, full); }},
           {"variance-claims", "variance_claims", measure_variance_claims, true},
           {"sampling-cost", "sampling_cost_table",
-           [results](ResultLog&, bool full) { measure_sampling_cost(results, full); }}};
+           [results](ResultLog& log, bool full) { measure_sampling_cost(log, results, full); }}};
 }
 
 }  // namespace
@@ -70,12 +55,19 @@ std::vector<Part> make_parts(const std::filesystem::path& results) {
 int main(int argc, char** argv) try {
   CLI::App app{"Benchmarks of Plumbline, part by part"};
   std::filesystem::path results;
-  std::string only;
+  std::string only, scaling_point;
   bool full = false;
-  app.add_option("--results", results, "Folder for the JSON results")->required();
+  auto* folder = app.add_option("--results", results, "Folder for the JSON results");
   app.add_flag("--full", full, "Everything, instead of the one-minute set");
   app.add_option("--only", only, "One part: its name");
+  // How this program measures in a process of its own, see scaling_point.cpp.
+  app.add_option("--scaling-point", scaling_point)->excludes(folder)->group("");
   CLI11_PARSE(app, argc, argv);
+  if (!scaling_point.empty()) {
+    plumbline::bench::measure_scaling_point(scaling_point);
+    return 0;
+  }
+  if (results.empty()) throw std::invalid_argument("--results FOLDER is required");
 
   std::filesystem::create_directories(results);
   bool found = false;

@@ -38,6 +38,7 @@ std::vector<double> reference_luminance(const std::string& name,
   options.path.rr_depth = description.integrator.rr_depth;
   options.samples_per_pixel = reference_spp;
   options.seed = 0x5eed;  // no replicate has it
+  options.sampler = renderer::SamplerType::sobol;
   const renderer::RenderResult result = render(renderer::Scene(description), options);
   return luminances(result.film);
 }

@@ -13,7 +13,7 @@ struct SpeedPoint {
   std::string heuristic;  ///< empty where the strategy has no use for one
   std::string sampler;    ///< "independent", …
   std::uint64_t samples_per_pixel = 0;
-  double seconds = 0;      ///< wall clock of one replicate, mean
+  double seconds = 0;      ///< time of one replicate, mean
   std::uint64_t rays = 0;  ///< of all kinds in one replicate, mean
   double rel_mse = 0;      ///< luminance relMSE: mean over pixels of (x − r)²/(r² + 0.01)
   double rel_mse_low = 0;  ///< 95 % confidence interval over the replicates
