@@ -112,7 +112,7 @@ function chartOptions(x, y) {
 const charts = [];
 
 /** A canvas whose chart is made again when the colour scheme changes. */
-function plot(makeDatasets, x, y, label) {
+function plot(makeDatasets, x, y, label, tall = false) {
   const canvas = element('canvas', {role: 'img', 'aria-label': label});
   let chart = null;
   charts.push(() => {
@@ -125,7 +125,7 @@ function plot(makeDatasets, x, y, label) {
       plugins: [intervalBars],
     });
   });
-  return element('div', {className: 'plot'}, canvas);
+  return element('div', {className: tall ? 'plot tall' : 'plot'}, canvas);
 }
 
 function drawCharts() {
@@ -216,7 +216,10 @@ function slopeTable(scene, samplers) {
       title: 'Exponent of error ~ time^slope with its standard error; −1/2 for a plain Monte Carlo estimator',
       number: true,
       sort: (c) => toNumber(c.slope),
-      cell: (c) => `${minus(toNumber(c.slope).toFixed(3))} ± ${toNumber(c.slope_error).toFixed(3)}`,
+      cell: (c) =>
+        Number.isFinite(toNumber(c.slope_error))
+          ? `${minus(toNumber(c.slope).toFixed(3))} ± ${toNumber(c.slope_error).toFixed(3)}`
+          : '–',
     },
     numberColumn('1 % error after [s]', (c) => timeTo(0.01, c), (x) => formatAligned(x, 3),
       {title: 'From the fitted line; beyond the measured points it is an extrapolation'}),
@@ -241,7 +244,7 @@ function addSpeed() {
   const cards = data.speed.map((scene) =>
     element('div', {className: 'card'},
       element('h3', {}, scene.scene, element('span', {className: 'aside'}, replicates(scene))),
-      plot(() => curveDatasets(scene, samplers), x, y, `Error against time, ${scene.scene}`),
+      plot(() => curveDatasets(scene, samplers), x, y, `Error against time, ${scene.scene}`, scene.curves.length > 10),
       slopeTable(scene, samplers)));
   addSection('speed', 'Error against time', data.speed.length,
     'Lower and further left is better; a click in the legend shows or hides a curve. Bars: 95 % intervals over independent replicates. Lines: the fitted ' +
