@@ -23,11 +23,13 @@ LookPlan plan_looks(std::uint64_t n0, std::uint64_t max_samples, const ErrorBudg
 
   const std::size_t looks = plan.samples.size();
   plan.fail_level.assign(looks, budget.fail_level() / static_cast<double>(looks));
-  plan.pass_level.resize(looks);
-  double left = budget.pass_level();
+  constexpr double kEven = 0.2, kOnLast = 0.7;
+  plan.pass_level.assign(looks, kEven * budget.pass_level() / static_cast<double>(looks));
+  double left = (1 - kEven) * budget.pass_level();
   for (std::size_t k = looks; k-- > 0;) {
-    plan.pass_level[k] = k == 0 ? left : 0.7 * left;
-    left -= plan.pass_level[k];
+    const double spent = k == 0 ? left : kOnLast * left;
+    plan.pass_level[k] += spent;
+    left -= spent;
   }
   return plan;
 }

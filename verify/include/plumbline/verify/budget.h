@@ -32,9 +32,9 @@ struct LookPlan {
 /// total.
 ///
 /// The level of a fail is split evenly: at 1e-8 a factor of 17 costs 0.4 standard errors, and gross
-/// bugs are to be seen early. The level of a pass is spent from the end, 0.7 of it on the last look
-/// and 0.3 of the rest on each look before: a bound cannot be small enough early on, whatever its
-/// level.
+/// bugs are to be seen early. A fifth of the level of a pass is split evenly too, so that a cap far
+/// beyond what is needed costs little; the rest is spent from the end, 0.7 of it on the last look
+/// and 0.7 of what is left on each look before.
 ///
 /// @param n0           samples at the first look, ≥ 1
 /// @param max_samples  samples at the last look; below n0 there is one look, at max_samples
