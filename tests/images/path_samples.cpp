@@ -14,7 +14,7 @@ using renderer::Sampler;
 using renderer::SamplerType;
 using renderer::Vec2f;
 
-constexpr std::uint64_t kChunk = 4096;
+constexpr std::uint64_t kChunk = 1024;
 
 }  // namespace
 

@@ -19,6 +19,7 @@ verify::MomentSampler path_samples(
     const renderer::Scene& scene, const renderer::PathOptions& options, std::uint64_t seed,
     renderer::SamplerType sampler = renderer::SamplerType::independent);
 
-inline constexpr std::uint32_t kNetSize = 16;
+/// Large enough that the net's order pays, small enough that the fewest nets a check takes do not.
+inline constexpr std::uint32_t kNetSize = 64;
 
 }  // namespace plumbline::tests

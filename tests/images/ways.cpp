@@ -1,11 +1,13 @@
 #include "ways.h"
 
 #include <algorithm>
+#include <variant>
 
 namespace plumbline::tests {
 namespace {
 
 using renderer::Heuristic;
+using renderer::LightSelection;
 using renderer::PathOptions;
 using renderer::SamplerType;
 using renderer::Strategy;
@@ -48,6 +50,10 @@ std::string Way::name() const {
   if (sampler != SamplerType::independent) text.append(" ").append(renderer::name(sampler));
   if (roulette == Roulette::early) text.append(" early-roulette");
   if (roulette == Roulette::off) text.append(" no-roulette");
+  if (selection != LightSelection::uniform) {
+    text.append(" select-").append(renderer::name(selection));
+  }
+  if (by_solid_angle) text.append(" solid-angle");
   return text;
 }
 
@@ -62,18 +68,33 @@ PathOptions Way::options(const renderer::IntegratorDescription& integrator) cons
   return result;
 }
 
+renderer::SceneDescription Way::description(renderer::SceneDescription scene) const {
+  scene.light_selection = selection;
+  for (renderer::ShapeDescription& shape : scene.shapes) {
+    const bool can = std::holds_alternative<renderer::RectangleShape>(shape.geometry) ||
+                     std::holds_alternative<renderer::MeshShape>(shape.geometry);
+    shape.light_by_solid_angle = by_solid_angle && can;
+  }
+  return scene;
+}
+
+// The strategies that are noisy by themselves take the sampler that is not, and no roulette early
+// on.
 std::vector<Way> covering_ways() {
-  return {{single(Strategy::bsdf), SamplerType::sobol, Roulette::off},
-          {single(Strategy::light), SamplerType::independent, Roulette::early},
-          {single(Strategy::uniform), SamplerType::sobol, Roulette::scene},
-          {mis(Heuristic::power, 1, 1), SamplerType::independent, Roulette::off},
-          {mis(Heuristic::balance, 1, 4), SamplerType::sobol, Roulette::early},
-          {mis({Heuristic::power, 1.5}, 4, 1), SamplerType::independent, Roulette::scene},
-          {mis(Heuristic::cutoff, 2, 2), SamplerType::sobol, Roulette::scene},
-          {mis(Heuristic::maximum, 1, 1), SamplerType::sobol, Roulette::scene},
-          {one_sample(Heuristic::power, 0.5f), SamplerType::sobol, Roulette::early},
-          {one_sample(Heuristic::cutoff, 0.2f), SamplerType::independent, Roulette::scene},
-          {single(Strategy::average), SamplerType::independent, Roulette::scene}};
+  return {
+      {single(Strategy::bsdf), SamplerType::sobol, Roulette::off},
+      {single(Strategy::light), SamplerType::sobol, Roulette::scene},
+      {single(Strategy::uniform), SamplerType::sobol, Roulette::scene},
+      {mis(Heuristic::power, 1, 1), SamplerType::independent, Roulette::off,
+       LightSelection::uniform, true},
+      {mis(Heuristic::balance, 1, 4), SamplerType::sobol, Roulette::early, LightSelection::area},
+      {mis({Heuristic::power, 1.5}, 4, 1), SamplerType::independent, Roulette::scene,
+       LightSelection::power},
+      {mis(Heuristic::cutoff, 2, 2), SamplerType::sobol, Roulette::scene},
+      {mis(Heuristic::maximum, 1, 1), SamplerType::sobol, Roulette::scene},
+      {one_sample(Heuristic::power, 0.5f), SamplerType::sobol, Roulette::scene},
+      {one_sample(Heuristic::cutoff, 0.2f), SamplerType::independent, Roulette::scene},
+      {single(Strategy::average), SamplerType::independent, Roulette::scene}};
 }
 
 std::vector<Way> representative_ways() {
@@ -90,6 +111,12 @@ std::vector<Way> all_ways() {
     paths.push_back(one_sample(heuristic, 0.5f));
   }
   std::vector<Way> ways = covering_ways();
+  for (const LightSelection selection : renderer::kLightSelections) {
+    for (const bool by_solid_angle : {false, true}) {
+      ways.push_back({mis(Heuristic::power, 1, 1), SamplerType::independent, Roulette::scene,
+                      selection, by_solid_angle});
+    }
+  }
   for (const PathOptions& path : paths) {
     for (const SamplerType sampler : renderer::kSamplers) {
       const Way way{path, sampler, Roulette::scene};

@@ -8,13 +8,16 @@
 
 namespace plumbline::tests {
 
-/// One way to render a scene: strategy, heuristic, counts or probability, sampler, roulette.
+/// One way to render a scene: strategy, heuristic, counts or probability, sampler, roulette, choice
+/// of the light, choice of the point on it.
 struct Way {
   enum class Roulette { scene, early, off };
 
   renderer::PathOptions path;
   renderer::SamplerType sampler = renderer::SamplerType::independent;
   Roulette roulette = Roulette::scene;
+  renderer::LightSelection selection = renderer::LightSelection::uniform;
+  bool by_solid_angle = false;  ///< rectangles and meshes; the scenes' own is by area
 
   /// "mis 1,4 power=2 sobol no-roulette": what differs from the usual is named.
   std::string name() const;
@@ -22,6 +25,9 @@ struct Way {
   /// For a scene: its depth, and its roulette where the way has none of its own. Paths of unlimited
   /// depth keep theirs, or they would not end.
   renderer::PathOptions options(const renderer::IntegratorDescription& integrator) const;
+
+  /// The scene with the lights sampled in this way.
+  renderer::SceneDescription description(renderer::SceneDescription scene) const;
 };
 
 /// Each value of each option at least once.
