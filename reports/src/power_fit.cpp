@@ -1,5 +1,6 @@
 #include <plumbline/reports/power_fit.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -49,7 +50,10 @@ PowerFit fit_power(std::span<const PowerFitPoint> points) {
     sxx += p.weight * (p.x - mean_x) * (p.x - mean_x);
     sxy += p.weight * (p.x - mean_x) * (p.y - mean_y);
   }
-  if (!(sxx > 0)) return {kNaN, kNaN, kNaN, static_cast<int>(usable.size())};
+  // One abscissa alone may differ from its mean by rounding: compare the abscissas themselves.
+  const bool distinct = std::any_of(usable.begin(), usable.end(),
+                                    [&](const LogPoint& p) { return p.x != usable.front().x; });
+  if (!distinct) return {kNaN, kNaN, kNaN, static_cast<int>(usable.size())};
 
   const double slope = sxy / sxx;
   const double intercept = mean_y - slope * mean_x;

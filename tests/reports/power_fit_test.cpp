@@ -70,6 +70,11 @@ TEST(PowerFit, WithoutTwoDifferentAbscissasThereIsNoSlope) {
   EXPECT_TRUE(std::isnan(fit_power({}).exponent));
   const std::vector<PowerFitPoint> one{{2, 3, 0.1}};
   EXPECT_TRUE(std::isnan(fit_power(one).exponent));
+  // Rounding must not make an abscissa of its own out of the mean of equal ones.
+  for (double x = 0.001; x < 10; x *= 1.1) {
+    const std::vector<PowerFitPoint> alone{{x, 3, 0.1 * x}};
+    EXPECT_TRUE(std::isnan(fit_power(alone).exponent)) << x;
+  }
   const std::vector<PowerFitPoint> same{{2, 3, 0.1}, {2, 4, 0.1}};
   EXPECT_TRUE(std::isnan(fit_power(same).exponent));
 }
