@@ -46,6 +46,7 @@ struct RenderArguments {
   double error = 0;
   std::optional<int> max_depth;
   std::uint64_t seed = 0;
+  renderer::Backend backend = renderer::Backend::batched;
   int threads = 0;
   std::string size;
   std::vector<std::string> definitions;
@@ -98,6 +99,7 @@ renderer::RenderOptions render_options(const RenderArguments& arguments,
   options.seed = arguments.seed;
   options.sampler = arguments.sampler;
   options.replicates = replicates_of(arguments);
+  options.backend = arguments.backend;
   options.threads = arguments.threads;
   set_allocation(arguments.allocation, arguments.samples.has_value(), options);
   return options;
@@ -278,6 +280,16 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
           },
           fmt::format("One of {}; independent without it",
                       fmt::join(names_of(renderer::kSamplers), ", ")))
+      ->type_name("NAME");
+  command
+      .add_option_function<std::string>(
+          "--backend",
+          [&](const std::string& text) {
+            arguments.backend = parse_name("--backend", "backend", renderer::kBackends, text);
+          },
+          fmt::format("One of {}: many paths side by side, or one after the other; the same image. "
+                      "batched without it",
+                      fmt::join(names_of(renderer::kBackends), ", ")))
       ->type_name("NAME");
   command
       .add_option_function<std::string>(

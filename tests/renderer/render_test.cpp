@@ -26,14 +26,17 @@ bool same_bits(const Film& a, const Film& b) {
 TEST(Render, TheImageDoesNotDependOnTheNumberOfThreads) {
   const Scene scene(tests::closed_sphere(33, 17));
   for (const Strategy strategy : kStrategies) {
-    RenderOptions options = options_for(strategy);
-    options.threads = 1;
-    const RenderResult one = render(scene, options);
-    for (const int threads : {2, 3, 0}) {
-      options.threads = threads;
-      const RenderResult many = render(scene, options);
-      EXPECT_TRUE(same_bits(one.film, many.film)) << name(strategy) << ", " << threads;
-      EXPECT_EQ(one.counters.bounce_rays, many.counters.bounce_rays);
+    for (const Backend backend : kBackends) {
+      RenderOptions options = options_for(strategy);
+      options.backend = backend;
+      options.threads = 1;
+      const RenderResult one = render(scene, options);
+      for (const int threads : {2, 3, 0}) {
+        options.threads = threads;
+        const RenderResult many = render(scene, options);
+        EXPECT_TRUE(same_bits(one.film, many.film)) << name(strategy) << ", " << threads;
+        EXPECT_EQ(one.counters.bounce_rays, many.counters.bounce_rays);
+      }
     }
   }
 }

@@ -85,6 +85,8 @@ TEST(Misuse, HasExitCodeTwoAndAMessage) {
        "--heuristic geometric: there is no such heuristic; supported: balance, power"},
       {"render furnace_open -o x.exr --sampler sobel",
        R"(--sampler sobel: there is no such sampler; did you mean "sobol"?)"},
+      {"render furnace_open -o x.exr --backend gpu",
+       "--backend gpu: there is no such backend; supported: batched, scalar"},
       {"render furnace_open -o x.exr --light-selection brightness",
        "--light-selection brightness: there is no such selection; supported: uniform, area, power"},
       {"render furnace_open -o x.exr --replicates 2", "--replicates belongs to --sampler sobol"},

@@ -1,6 +1,5 @@
 #include <plumbline/renderer/render/path.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -8,17 +7,6 @@
 
 namespace plumbline::renderer {
 namespace {
-
-/// The techniques for direct light at one vertex. `n_…` is the expected number of samples, or the
-/// probability of the one: what enters the MIS weight. `draw_…` is the number drawn this time.
-struct Techniques {
-  float n_bsdf = 0, n_light = 0;
-  int draw_bsdf = 0, draw_light = 0;
-  bool draw_uniform = false;
-
-  /// BSDF samples in all: one goes on where no density is asked for, since only it finds atoms.
-  int directions() const { return std::max(draw_bsdf, 1); }
-};
 
 Techniques counts(int bsdf, int light) {
   return {.n_bsdf = static_cast<float>(bsdf),
@@ -47,14 +35,6 @@ Techniques choose_techniques(const PathOptions& options, int depth, Sampler& ran
   }
   return {};
 }
-
-/// What the weight of emission at the end of a BSDF ray depends on: the vertex behind it.
-struct Arrival {
-  Techniques techniques;
-  bool by_atom;  // no other technique can find what lies at the end
-  float pdf_w;   // of the BSDF sample, if it was no atom
-  Vec3f ref;
-};
 
 class Path {
  public:
@@ -110,7 +90,9 @@ class Path {
     const std::uint32_t light = light_seen(scene_, hit, direction);
     if (light == kNoLight) return {};
     const Rgbf radiance = renderer::radiance(scene_.lights()[light], direction);
-    return arrival ? radiance * bsdf_weight(*arrival, light, direction) : radiance;
+    return arrival
+               ? radiance * arrival_weight(options_, scene_.lights(), *arrival, light, direction)
+               : radiance;
   }
 
   /// Emission found in a direction from a vertex.
@@ -118,24 +100,6 @@ class Path {
     ++counters_.bounce_rays;
     const Ray ray = vertex.ray_along(wi);
     return emission(scene_.intersect(ray), ray.direction, arrival);
-  }
-
-  /// The share of one of n samples that no other technique can draw.
-  float share(float n) const { return options_.strategy == Strategy::average ? 0.5f : 1 / n; }
-
-  /// MIS weight of one sample of a technique over the number of its samples.
-  float weight(float n, float pdf, float n_other, float pdf_other) const {
-    if (options_.strategy == Strategy::average) return 0.5f;
-    return mis_weight(options_.heuristic, n * pdf, n_other * pdf_other) / n;
-  }
-
-  float bsdf_weight(const Arrival& arrival, std::uint32_t light, const Vec3f& direction) const {
-    const Techniques& t = arrival.techniques;
-    if (arrival.by_atom) return share(static_cast<float>(t.directions()));
-    if (t.draw_bsdf == 0) return 0;
-    const float pdf_light =
-        t.n_light > 0 ? scene_.lights().pdf(light, arrival.ref, direction) : 0.0f;
-    return weight(t.n_bsdf, arrival.pdf_w, t.n_light, pdf_light);
   }
 
   /// Direct light by one more BSDF sample, which the path does not follow further.
@@ -161,9 +125,10 @@ class Path {
     const BsdfValue<float> bsdf = vertex.bsdf.evaluate(vertex.wo, wi);
     if (is_black(bsdf.f) || !is_visible(scene_, vertex.hit, *light, counters_)) return {};
     if (light->is_atom()) {
-      return bsdf.f * light->radiance * (std::abs(wi.z) * share(t.n_light) / light->mass);
+      return bsdf.f * light->radiance * (std::abs(wi.z) * share(options_, t.n_light) / light->mass);
     }
-    const float w = weight(t.n_light, light->pdf_w, t.n_bsdf, t.n_bsdf > 0 ? bsdf.pdf_w : 0.0f);
+    const float w = technique_weight(options_, t.n_light, light->pdf_w, t.n_bsdf,
+                                     t.n_bsdf > 0 ? bsdf.pdf_w : 0.0f);
     return bsdf.f * light->radiance * (std::abs(wi.z) * w / light->pdf_w);
   }
 
@@ -186,12 +151,10 @@ class Path {
     return f * gather(vertex, wi, std::nullopt) * (std::abs(wi.z) / pdf_w);
   }
 
-  /// Ends paths at random and scales the survivors up, so that the mean stays. What counts is the
-  /// throughput without the scale of refractions: it comes back when the path leaves the glass.
+  /// Ends paths at random and scales the survivors up, so that the mean stays.
   bool survives_roulette(int depth, float radiance_scale, Rgbf& throughput) {
     if (depth < options_.rr_depth) return true;
-    // 0.95 as in Mitsuba: without a cap a path in a white closed room would never end.
-    const float survival = std::min(max_component(throughput) / radiance_scale, 0.95f);
+    const float survival = survival_probability(throughput, radiance_scale);
     if (!(random_.next_1d() < survival)) return false;
     throughput = throughput / survival;
     return true;

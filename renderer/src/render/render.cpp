@@ -15,6 +15,7 @@
 #include <span>
 
 #include <plumbline/renderer/render/direct.h>
+#include "batch.h"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -55,7 +56,16 @@ class Progress {
   std::mutex mutex_;
 };
 
+/// What one thread works with.
+struct Worker {
+  PathCounters counters;
+  std::unique_ptr<BatchTracer> batch;  // none: one path after the other
+  std::vector<PixelMoments*> targets;  // of the paths in it
+};
+
 class Renderer {
+  using Range = oneapi::tbb::blocked_range2d<int>;
+
  public:
   Renderer(const Scene& scene, const RenderOptions& options)
       : scene_(scene),
@@ -89,7 +99,7 @@ class Renderer {
       }
     }
     RenderResult result{std::move(film_), {}, done, elapsed(), std::move(bsdf_counts_)};
-    for (const PathCounters& counters : counters_) result.counters += counters;
+    for (const Worker& worker : workers_) result.counters += worker.counters;
     return result;
   }
 
@@ -112,44 +122,80 @@ class Renderer {
   }
 
   void render_pass(std::uint32_t first_sample, std::uint32_t samples) {
-    using Range = oneapi::tbb::blocked_range2d<int>;
-    const Range tiles(0, film_.height(), kTileSize, 0, film_.width(), kTileSize);
+    const std::size_t side = tile_side(samples);
+    const Range tiles(0, film_.height(), side, 0, film_.width(), side);
     arena_.execute([&] {
       oneapi::tbb::parallel_for(tiles, [&](const Range& tile) {
         const FlushToZero flush_to_zero;
-        PathCounters& counters = counters_.local();
-        for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
-          for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
-            if (options_.allocation) {
-              allocate_pixel(x, y, counters);
-            } else {
-              render_pixel(x, y, first_sample, samples, counters);
-            }
+        Worker& worker = local_worker();
+        for_each_pixel(tile, [&](int x, int y) {
+          if (options_.allocation) {
+            allocate_pixel(x, y, worker.counters);
+          } else {
+            render_pixel(x, y, first_sample, samples, worker);
           }
-        }
+        });
+        if (worker.batch) finish(worker);
+        if (!dealt_.empty()) for_each_pixel(tile, [&](int x, int y) { sum_replicates(x, y); });
         progress_.advance(tile.rows().size() * tile.cols().size() * samples);
       });
     });
   }
 
+  template <class Function>
+  static void for_each_pixel(const Range& tile, const Function& function) {
+    for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
+      for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) function(x, y);
+    }
+  }
+
+  /// Small enough that threads end together, large enough that a pass of few samples fills a batch.
+  static std::size_t tile_side(std::uint32_t samples) {
+    std::size_t side = 8;
+    while (side * side * samples < kBatch) side *= 2;
+    return side;
+  }
+
+  Worker& local_worker() {
+    bool exists = false;
+    Worker& worker = workers_.local(exists);
+    if (!exists && options_.backend == Backend::batched && !options_.allocation) {
+      worker.batch = BatchTracer::make(scene_, options_.path, options_.sampler, options_.seed);
+    }
+    return worker;
+  }
+
   void render_pixel(int x, int y, std::uint32_t first_sample, std::uint32_t samples,
-                    PathCounters& counters) {
+                    Worker& worker) {
+    const std::size_t pixel = film_.index(x, y);
+    const std::uint32_t replicates = dealt_.empty() ? 1 : options_.replicates;
+    for (std::uint32_t s = first_sample; s < first_sample + samples; ++s) {
+      const std::uint64_t net = pixel * replicates + s % replicates, index = s / replicates;
+      PixelMoments& moments = dealt_.empty() ? film_.pixels()[pixel] : dealt_[net];
+      if (worker.batch) {
+        if (worker.batch->size() == kBatch) finish(worker);
+        worker.batch->start(x, y, net, index);
+        worker.targets.push_back(&moments);
+      } else {
+        Sampler random(options_.sampler, options_.seed, net, index);
+        const Ray ray = scene_.camera().ray(x, y, random.next_2d());
+        moments.add(estimate_radiance(scene_, options_.path, ray, random, worker.counters));
+      }
+    }
+  }
+
+  /// Ends the paths of a batch; their samples arrive in the order in which they were started.
+  static void finish(Worker& worker) {
+    const std::span<const Rgbf> radiance = worker.batch->trace(worker.counters);
+    for (std::size_t i = 0; i < radiance.size(); ++i) worker.targets[i]->add(radiance[i]);
+    worker.targets.clear();
+  }
+
+  void sum_replicates(int x, int y) {
     const std::size_t index = film_.index(x, y);
     PixelMoments& pixel = film_.pixels()[index];
-    const std::uint32_t replicates = dealt_.empty() ? 1 : options_.replicates;
-    const std::span<PixelMoments> dealt =
-        dealt_.empty() ? std::span<PixelMoments>()
-                       : std::span(dealt_).subspan(index * replicates, replicates);
-    for (std::uint32_t s = first_sample; s < first_sample + samples; ++s) {
-      Sampler random(options_.sampler, options_.seed, index * replicates + s % replicates,
-                     s / replicates);
-      const Vec2f jitter = random.next_2d();
-      const Ray ray = scene_.camera().ray(x, y, jitter);
-      PixelMoments& moments = dealt.empty() ? pixel : dealt[s % replicates];
-      moments.add(estimate_radiance(scene_, options_.path, ray, random, counters));
-    }
-    if (dealt.empty()) return;
     pixel = {};
+    const auto dealt = std::span(dealt_).subspan(index * options_.replicates, options_.replicates);
     for (const PixelMoments& replicate : dealt) pixel.add_replicate(replicate);
   }
 
@@ -176,8 +222,6 @@ class Renderer {
     allocate_samples(*options_.allocation, options_.samples_per_pixel, draw, record);
   }
 
-  static constexpr std::size_t kTileSize = 8;  // small enough that two threads end together
-
   const Scene& scene_;
   const RenderOptions& options_;
   oneapi::tbb::global_control thread_limit_;  // an arena alone cannot exceed the number of cores
@@ -185,7 +229,7 @@ class Renderer {
   Film film_;
   std::vector<PixelMoments> dealt_;  // under Sobol: the replicates of each pixel
   Progress progress_;
-  oneapi::tbb::enumerable_thread_specific<PathCounters> counters_;
+  oneapi::tbb::enumerable_thread_specific<Worker> workers_;
   std::vector<std::uint32_t> bsdf_counts_;
 };
 

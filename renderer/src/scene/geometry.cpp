@@ -16,6 +16,10 @@ float plane_magnitude(const Vec3f& p, const Vec3f& corner, const Vec3f& normal) 
          std::abs(normal.z * d.z);
 }
 
+/// Embree counts a hit at 0: a ray from a point that lies on its plane without rounding, as in the
+/// middle of a scene, needs no offset and must not meet that plane.
+constexpr float kNearest = std::numeric_limits<float>::min();
+
 RTCRay embree_ray(const Ray& ray) {
   RTCRay r{};
   r.org_x = ray.origin.x;
@@ -24,12 +28,46 @@ RTCRay embree_ray(const Ray& ray) {
   r.dir_x = ray.direction.x;
   r.dir_y = ray.direction.y;
   r.dir_z = ray.direction.z;
-  // Embree counts a hit at 0: a ray from a point that lies on its plane without rounding, as in the
-  // middle of a scene, needs no offset and must not meet that plane.
-  r.tnear = std::numeric_limits<float>::min();
+  r.tnear = kNearest;
   r.tfar = ray.t_max;
   r.mask = ~0u;
   return r;
+}
+
+using embree::kPacket;
+
+/// Up to here rays of one octant share most of what they visit, so that walking the tree together
+/// pays: measured 1.3 times as fast in the Cornell box, alike at 3,000 triangles, half as fast at a
+/// million.
+constexpr std::size_t kFewPrimitives = 4096;
+
+/// Rays of a packet that have values of their own.
+struct ValidLanes {
+  alignas(64) int lanes[kPacket];
+
+  explicit ValidLanes(std::size_t count) {
+    for (std::size_t k = 0; k < kPacket; ++k) lanes[k] = k < count ? -1 : 0;
+  }
+};
+
+void prepare(RTCRay16& packet) {
+  packet = {};
+  for (std::size_t k = 0; k < kPacket; ++k) {
+    packet.tnear[k] = kNearest;
+    packet.mask[k] = ~0u;
+  }
+}
+
+void load(RTCRay16& packet, const RayLanes& rays, std::size_t first) {
+  for (std::size_t k = 0; k < kPacket; ++k) {
+    packet.org_x[k] = rays.origin.x[first + k];
+    packet.org_y[k] = rays.origin.y[first + k];
+    packet.org_z[k] = rays.origin.z[first + k];
+    packet.dir_x[k] = rays.direction.x[first + k];
+    packet.dir_y[k] = rays.direction.y[first + k];
+    packet.dir_z[k] = rays.direction.z[first + k];
+    packet.tfar[k] = rays.t_max[first + k];
+  }
 }
 
 }  // namespace
@@ -97,66 +135,117 @@ void SceneGeometry::build() {
          });
   rtcCommitScene(scene_);
   check_device();
+  find_normals();
+  std::size_t count = 0;
+  for (const auto& of_kind : primitives) count += of_kind.size();
+  if (count <= kFewPrimitives) coherence_ = embree::Coherence::coherent;
 }
 
-SurfaceHit SceneGeometry::surface_hit(const RTCRayHit& hit) const {
-  const unsigned kind = hit.hit.geomID;
-  const unsigned index = hit.hit.primID;
-  const Primitive& primitive = primitives[kind][index];
+std::array<Vec3f, 3> SceneGeometry::corners(unsigned kind, std::size_t index) const {
+  if (kind == kTriangles) {
+    const Triangle& t = triangles[index];
+    return {mesh_vertices[t[0]], mesh_vertices[t[1]], mesh_vertices[t[2]]};
+  }
+  const Vec3f* corner = rectangle_corners.data() + 4 * index;
+  return {corner[0], corner[1], corner[3]};
+}
 
+void SceneGeometry::find_normals() {
+  for (const unsigned kind : {kTriangles, kRectangles}) {
+    for (std::size_t i = 0; i < primitives[kind].size(); ++i) {
+      const auto [v0, v1, v2] = corners(kind, i);
+      const Vec3d e1 = vec_cast<double>(v1) - vec_cast<double>(v0);
+      const Vec3d e2 = vec_cast<double>(v2) - vec_cast<double>(v0);
+      Primitive& primitive = primitives[kind][i];
+      primitive.normal = vec_cast<float>(normalize(cross(e1, e2))) * primitive.facing;
+    }
+  }
+  for (std::size_t i = 0; i < disks.size(); ++i) primitives[kDisks][i].normal = disk_normals[i];
+}
+
+SurfaceHit SceneGeometry::surface_hit(const Ray& ray, const PrimitiveHit& hit) const {
+  const Primitive& primitive = primitives[hit.kind][hit.index];
   // Points are recomputed from the primitive in double: o + t·d has the rounding error of t, which
   // far from the camera is larger than any offset could repair.
-  Vec3f position, normal;
+  Vec3f position, normal = primitive.normal;
   float magnitude = 0;
-  const double u = static_cast<double>(hit.hit.u), v = static_cast<double>(hit.hit.v);
-  if (kind == kTriangles || kind == kRectangles) {
-    const Vec3f* corner = rectangle_corners.data() + 4 * std::size_t{index};
-    const bool is_triangle = kind == kTriangles;
-    const Vec3f v0 = is_triangle ? mesh_vertices[triangles[index][0]] : corner[0];
-    const Vec3f v1 = is_triangle ? mesh_vertices[triangles[index][1]] : corner[1];
-    const Vec3f v2 = is_triangle ? mesh_vertices[triangles[index][2]] : corner[3];
+  if (hit.kind == kTriangles || hit.kind == kRectangles) {
+    const auto [v0, v1, v2] = corners(hit.kind, hit.index);
     const Vec3d e1 = vec_cast<double>(v1) - vec_cast<double>(v0);
     const Vec3d e2 = vec_cast<double>(v2) - vec_cast<double>(v0);
-    position = vec_cast<float>(vec_cast<double>(v0) + e1 * u + e2 * v);
-    normal = vec_cast<float>(normalize(cross(e1, e2)));
+    position = vec_cast<float>(vec_cast<double>(v0) + e1 * static_cast<double>(hit.u) +
+                               e2 * static_cast<double>(hit.v));
     magnitude = plane_magnitude(position, v0, normal);
   } else {
-    const auto& ray = hit.ray;
     const Vec3d raw =
-        vec_cast<double>(Vec3f{ray.org_x, ray.org_y, ray.org_z}) +
-        vec_cast<double>(Vec3f{ray.dir_x, ray.dir_y, ray.dir_z}) * static_cast<double>(ray.tfar);
-    if (kind == kSpheres) {
-      const Sphere& sphere = spheres[index];
+        vec_cast<double>(ray.origin) + vec_cast<double>(ray.direction) * static_cast<double>(hit.t);
+    if (hit.kind == kSpheres) {
+      const Sphere& sphere = spheres[hit.index];
       const Vec3d n = normalize(raw - vec_cast<double>(sphere.center));
       position =
           vec_cast<float>(vec_cast<double>(sphere.center) + n * static_cast<double>(sphere.radius));
-      normal = vec_cast<float>(n);
+      normal = vec_cast<float>(n) * primitive.facing;
       magnitude = std::max(max_norm(sphere.center), sphere.radius) + max_norm(position);
     } else {
-      const Disk& disk = disks[index];
-      normal = disk_normals[index];
+      const Disk& disk = disks[hit.index];
       const Vec3d n = vec_cast<double>(normal);
       position = vec_cast<float>(raw - n * dot(n, raw - vec_cast<double>(disk.center)));
       magnitude = plane_magnitude(position, disk.center, normal);
     }
   }
-  return {position, normal * primitive.facing, ray_offset(magnitude), primitive.bsdf,
-          primitive.light};
+  return {position, normal, ray_offset(magnitude), primitive.bsdf, primitive.light};
 }
 
 std::optional<SurfaceHit> SceneGeometry::intersect(const Ray& ray) const {
-  RTCRayHit ray_hit{};
+  RTCRayHit ray_hit;
   ray_hit.ray = embree_ray(ray);
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   embree::intersect(scene_, ray_hit);
-  if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return surface_hit(ray_hit);
+  const RTCHit& hit = ray_hit.hit;
+  if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return surface_hit(ray, {hit.geomID, hit.primID, hit.u, hit.v, ray_hit.ray.tfar});
 }
 
 bool SceneGeometry::occluded(const Ray& ray) const {
   RTCRay r = embree_ray(ray);
   embree::occluded(scene_, r);
   return r.tfar < 0;
+}
+
+void SceneGeometry::intersect(const RayLanes& rays, std::size_t count, HitLanes& hits) const {
+  alignas(64) RTCRayHit16 packet;
+  prepare(packet.ray);
+  for (std::size_t first = 0; first < count; first += kPacket) {
+    const std::size_t size = std::min(kPacket, count - first);
+    load(packet.ray, rays, first);
+    for (unsigned& id : packet.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
+    embree::intersect(scene_, ValidLanes(size).lanes, packet, coherence_);
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t i = first + k;
+      hits.bsdf[i] = kNoHit;
+      if (packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+      const SurfaceHit hit = surface_hit({rays.origin[i], rays.direction[i]},
+                                         {packet.hit.geomID[k], packet.hit.primID[k],
+                                          packet.hit.u[k], packet.hit.v[k], packet.ray.tfar[k]});
+      hits.position.set(i, hit.position);
+      hits.normal.set(i, hit.normal);
+      hits.offset[i] = hit.offset;
+      hits.bsdf[i] = hit.bsdf;
+      hits.light[i] = hit.light;
+    }
+  }
+}
+
+void SceneGeometry::occluded(const RayLanes& rays, std::size_t count,
+                             Lanes<std::uint8_t>& blocked) const {
+  alignas(64) RTCRay16 packet;
+  prepare(packet);
+  for (std::size_t first = 0; first < count; first += kPacket) {
+    const std::size_t size = std::min(kPacket, count - first);
+    load(packet, rays, first);
+    embree::occluded(scene_, ValidLanes(size).lanes, packet, embree::Coherence::none);
+    for (std::size_t k = 0; k < size; ++k) blocked[first + k] = packet.tfar[k] < 0 ? 1 : 0;
+  }
 }
 
 }  // namespace plumbline::renderer

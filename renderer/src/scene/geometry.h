@@ -31,10 +31,17 @@ struct Primitive {
   std::uint32_t bsdf;
   std::uint32_t light;
   float facing;
+  Vec3f normal{};  ///< of what is flat: unit, of the front side
 };
 
 /// Embree geometry ids, in the order of attachment.
 enum GeometryId : unsigned { kSpheres, kRectangles, kDisks, kTriangles, kGeometryKinds };
+
+/// Where Embree says that a ray meets a primitive.
+struct PrimitiveHit {
+  unsigned kind, index;
+  float u, v, t;
+};
 
 /// Buffers that Embree reads in place, what belongs to each primitive, and the rays' way in.
 class SceneGeometry {
@@ -59,6 +66,8 @@ class SceneGeometry {
 
   std::optional<SurfaceHit> intersect(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
+  void intersect(const RayLanes& rays, std::size_t count, HitLanes& hits) const;
+  void occluded(const RayLanes& rays, std::size_t count, Lanes<std::uint8_t>& blocked) const;
   RTCScene embree_scene() const { return scene_; }
 
  private:
@@ -66,10 +75,13 @@ class SceneGeometry {
               std::size_t item_size, std::size_t item_count,
               const std::function<void(RTCGeometry)>& more);
   void check_device() const;
-  SurfaceHit surface_hit(const RTCRayHit& hit) const;
+  void find_normals();
+  std::array<Vec3f, 3> corners(unsigned kind, std::size_t index) const;
+  SurfaceHit surface_hit(const Ray& ray, const PrimitiveHit& hit) const;
 
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
+  embree::Coherence coherence_ = embree::Coherence::none;
 };
 
 }  // namespace plumbline::renderer

@@ -190,18 +190,14 @@ std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
 
 bool Scene::occluded(const Ray& ray) const { return geometry_->occluded(ray); }
 
-RTCSceneTy* Scene::embree_scene() const { return geometry_->embree_scene(); }
-
-Ray shadow_ray(const SurfaceHit& hit, const LightSample<float>& light) {
-  Ray ray = hit.ray_along(light.wi);
-  if (std::isfinite(light.distance)) {
-    const Vec3f end = hit.position + light.wi * light.distance;
-    // One offset before the light, and the start is up to one offset nearer to it than the point
-    // that the distance counts from; along the ray both are longer by 1/cosθ.
-    const float light_offset = ray_offset(std::max(max_norm(end), max_norm(hit.position)));
-    ray.t_max = light.distance - (light_offset + hit.offset) / light.cos_light;
-  }
-  return ray;
+void Scene::intersect(const RayLanes& rays, std::size_t count, HitLanes& hits) const {
+  geometry_->intersect(rays, count, hits);
 }
+
+void Scene::occluded(const RayLanes& rays, std::size_t count, Lanes<std::uint8_t>& blocked) const {
+  geometry_->occluded(rays, count, blocked);
+}
+
+RTCSceneTy* Scene::embree_scene() const { return geometry_->embree_scene(); }
 
 }  // namespace plumbline::renderer

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -93,9 +94,12 @@ struct SinCos {
 template <class T>
 [[gnu::always_inline]] inline SinCos<T> sin_cos_turns(const T& u) {
   if constexpr (std::is_same_v<T, float>) {
-    // Rounding by truncation is right for u ≥ 0. NOLINTNEXTLINE(bugprone-incorrect-roundings)
-    const int quarter = static_cast<int>(4.0f * u + 0.5f);
-    const float x = 2 * pi<float>() * (u - 0.25f * static_cast<float>(quarter));
+    // Among the floats from 2²³ on lie whole numbers only: the sum is rounded to one, and holds it
+    // in its lowest bits. A conversion to int would keep compilers from vectorising what branches.
+    constexpr float kWhole = 0x1.8p23f;
+    const float rounded = 4.0f * u + kWhole;
+    const auto quarter = std::bit_cast<std::uint32_t>(rounded);
+    const float x = 2 * pi<float>() * (u - 0.25f * (rounded - kWhole));
     const float x2 = x * x;
     const float s =
         x + x * x2 * (-1.6666654611e-1f + x2 * (8.3321608736e-3f - x2 * 1.9515295891e-4f));
@@ -186,7 +190,7 @@ Rgb<To> rgb_cast(const Rgb<From>& c) {
 
 template <class T>
 T max_component(const Rgb<T>& c) {
-  return std::max({c.r, c.g, c.b});
+  return std::max(std::max(c.r, c.g), c.b);
 }
 
 template <class T>

@@ -125,6 +125,13 @@ class BsdfSet {
     });
   }
 
+  /// function(bsdf) with the alternative itself, or function(bsdf, set) for a nested one: for loops
+  /// over many points of one BSDF, which then choose once.
+  template <class Function>
+  void visit(std::uint32_t i, const Function& function) const {
+    call<void>(i, function);
+  }
+
  private:
   template <class Result, class Function>
   Result call(std::uint32_t i, const Function& function) const {

@@ -126,8 +126,11 @@ T mis_weight(const Weighting& weighting, std::span<const TechniqueDensity<T>> te
 /// @return              w_a in [0, 1]; 0 where pdf_a is 0
 template <class T>
 T mis_weight(const Weighting& weighting, const T& pdf_a, const T& pdf_b) {
-  const std::array<TechniqueDensity<T>, 2> pair{{{pdf_a}, {pdf_b}}};
-  return mis_weight(weighting, std::span<const TechniqueDensity<T>>(pair), 0);
+  // The general form for two, without its loops and branches: a renderer asks at every vertex.
+  const T largest = pdf_a > pdf_b ? pdf_a : pdf_b;
+  const T a = mis_detail::emphasise(weighting, T(pdf_a / largest));
+  const T b = mis_detail::emphasise(weighting, T(pdf_b / largest));
+  return pdf_a > T(0) ? T(a / (a + b)) : T(0);
 }
 
 }  // namespace plumbline::renderer

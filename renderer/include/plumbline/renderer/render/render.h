@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <plumbline/renderer/mis/allocation.h>
@@ -11,6 +13,20 @@
 #include <plumbline/renderer/scene/scene.h>
 
 namespace plumbline::renderer {
+
+/// How paths are traced. Both ask the same functions of BSDFs, lights and heuristics, for the same
+/// random numbers.
+enum class Backend {
+  batched,  ///< many side by side, in packets, where the strategy allows, else as `scalar`
+  scalar    ///< one path after the other: the reference
+};
+
+inline constexpr std::array kBackends{Backend::batched, Backend::scalar};
+
+/// The name on the command line: "batched", "scalar".
+constexpr std::string_view name(Backend backend) {
+  return backend == Backend::batched ? "batched" : "scalar";
+}
 
 /// When to stop and how to start. Sampling ends at whichever limit is reached first.
 struct RenderOptions {
@@ -25,6 +41,7 @@ struct RenderOptions {
   /// the points of one scramble know nothing of their own error. 1: all points in one net, no
   /// variance.
   std::uint32_t replicates = 1;
+  Backend backend = Backend::batched;
   int threads = 0;  ///< 0: all cores. The image does not depend on it.
   /// Direct light only, BSDF samples (technique 1) and light samples shared out pixel by pixel,
   /// balanced: takes the place of strategy and heuristic. Needs a depth of 2, a sample count that

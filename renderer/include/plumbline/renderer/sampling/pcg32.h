@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <plumbline/renderer/math.h>
@@ -32,6 +33,11 @@ class Pcg32 {
     state_ = key;
     next_bits();
   }
+
+  /// Goes on where another one, of which this is the state(), has come to.
+  explicit Pcg32(const std::array<std::uint64_t, 2>& state)
+      : state_(state[0]), increment_(state[1]) {}
+  std::array<std::uint64_t, 2> state() const { return {state_, increment_}; }
 
   std::uint32_t next_bits() {
     const std::uint64_t old = state_;

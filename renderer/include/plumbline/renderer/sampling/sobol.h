@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <plumbline/renderer/math.h>
@@ -60,6 +61,11 @@ class SobolSampler {
   SobolSampler(std::uint64_t seed, std::uint64_t net, std::uint64_t index)
       : key_(mix_bits(mix_bits(seed + kGolden) + net)),
         reversed_index_(reverse_bits(static_cast<std::uint32_t>(index))) {}
+
+  /// Goes on where another one, of which this is the state(), has come to.
+  explicit SobolSampler(const std::array<std::uint64_t, 2>& state)
+      : key_(state[0]), reversed_index_(static_cast<std::uint32_t>(state[1])) {}
+  std::array<std::uint64_t, 2> state() const { return {key_, reversed_index_}; }
 
   /// Uniform in [0, 1).
   float next_1d() {

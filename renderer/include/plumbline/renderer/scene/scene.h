@@ -11,6 +11,7 @@
 #include <plumbline/renderer/math.h>
 #include <plumbline/renderer/scene/camera.h>
 #include <plumbline/renderer/scene/description.h>
+#include <plumbline/renderer/scene/lanes.h>
 #include <plumbline/renderer/scene/ray.h>
 
 struct RTCSceneTy;  // Embree's, so that its header stays out of this one
@@ -55,7 +56,13 @@ class Scene {
   /// @return whether anything lies on the ray before t_max
   bool occluded(const Ray& ray) const;
 
+  /// The same for the first `count` ≤ kBatch rays, sixteen at a time: fastest where neighbours
+  /// point alike. `blocked` is 1 or 0.
+  void intersect(const RayLanes& rays, std::size_t count, HitLanes& hits) const;
+  void occluded(const RayLanes& rays, std::size_t count, Lanes<std::uint8_t>& blocked) const;
+
   BsdfRef bsdf(std::uint32_t index) const { return {bsdfs_, index}; }
+  const BsdfSet& bsdfs() const { return bsdfs_; }
   const LightSet& lights() const { return lights_; }
   /// Index of the environment in lights(), or kNoLight.
   std::uint32_t environment() const { return environment_; }
@@ -81,13 +88,23 @@ inline float ray_offset(float magnitude) { return 16 * 0x1p-24f * magnitude; }
 
 /// Largest absolute coordinate.
 inline float max_norm(const Vec3f& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
 /// The ray that asks whether a light sampled from `hit.position` is visible from there. It stops at
 /// the plane one ray offset before the light, so that the light does not shadow itself.
 ///
 /// @return t_max ≤ 0 where nothing can lie between
-Ray shadow_ray(const SurfaceHit& hit, const LightSample<float>& light);
+inline Ray shadow_ray(const SurfaceHit& hit, const LightSample<float>& light) {
+  Ray ray = hit.ray_along(light.wi);
+  if (std::isfinite(light.distance)) {
+    const Vec3f end = hit.position + light.wi * light.distance;
+    // One offset before the light, and the start is up to one offset nearer to it than the point
+    // that the distance counts from; along the ray both are longer by 1/cosθ.
+    const float light_offset = ray_offset(std::max(max_norm(end), max_norm(hit.position)));
+    ray.t_max = light.distance - (light_offset + hit.offset) / light.cos_light;
+  }
+  return ray;
+}
 
 }  // namespace plumbline::renderer

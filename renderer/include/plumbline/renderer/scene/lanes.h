@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <plumbline/renderer/math.h>
+
+/// Values of many rays side by side, component by component, so that loops over them vectorise.
+namespace plumbline::renderer {
+
+/// Rays that are traced and shaded together: enough to fill packets after sorting, few enough that
+/// their state stays in a core's cache. A multiple of the packets' width.
+inline constexpr std::size_t kBatch = 2048;
+
+template <class T>
+struct alignas(64) Lanes : std::array<T, kBatch> {};
+
+struct Vec3Lanes {
+  Lanes<float> x, y, z;
+
+  Vec3f operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void set(std::size_t i, const Vec3f& v) {
+    x[i] = v.x;
+    y[i] = v.y;
+    z[i] = v.z;
+  }
+};
+
+struct RgbLanes {
+  Lanes<float> r, g, b;
+
+  Rgbf operator[](std::size_t i) const { return {r[i], g[i], b[i]}; }
+  void set(std::size_t i, const Rgbf& c) {
+    r[i] = c.r;
+    g[i] = c.g;
+    b[i] = c.b;
+  }
+};
+
+struct RayLanes {
+  Vec3Lanes origin, direction;
+  Lanes<float> t_max;
+};
+
+inline constexpr std::uint32_t kNoHit = 0xffffffffu;
+
+/// What Scene::intersect finds, ray by ray; `bsdf` is kNoHit where a ray escapes, and the rest then
+/// left as it was.
+struct HitLanes {
+  Vec3Lanes position, normal;
+  Lanes<float> offset;
+  Lanes<std::uint32_t> bsdf, light;
+};
+
+/// Order in which rays walk the tree alike: the signs of their direction, in [0, 8).
+inline std::uint32_t octant(const Vec3f& d) {
+  return (d.x < 0 ? 1u : 0u) | (d.y < 0 ? 2u : 0u) | (d.z < 0 ? 4u : 0u);
+}
+
+}  // namespace plumbline::renderer

@@ -1,0 +1,196 @@
+#include "batch_kernels.h"
+
+#include <cmath>
+#include <type_traits>
+#include <variant>
+
+#include "vertex.h"
+
+// Vectorised loops hold no calls: everything that a kernel calls is made part of it.
+#define PLUMBLINE_KERNEL [[gnu::flatten]]
+
+namespace plumbline::renderer {
+namespace {
+
+/// A copy of what is small: the compiler then knows that no store of the loop changes it.
+template <class T>
+using Local = std::conditional_t<std::is_trivially_copyable_v<T>, const T, const T&>;
+
+template <class L>
+void sample_lanes(const L& light, Shading& s, Run run) {
+  for (std::size_t k = run.first; k < run.end; ++k) {
+    const auto sample = light.sample(s.position[k], Vec2f{s.u[k], s.v[k]});
+    const bool found = sample.has_value();
+    const LightSample<float> l = found ? *sample : LightSample<float>{};
+    s.to_light.set(k, l.wi);
+    s.distance[k] = l.distance;
+    s.cos_light[k] = l.cos_light;
+    s.pdf_light[k] = l.pdf_w * s.pmf[k];
+    s.mass[k] = l.mass * s.pmf[k];
+    s.radiance.set(k, l.radiance);
+  }
+}
+
+template <class L>
+PLUMBLINE_KERNEL void sample_light_of_type(const L& shared, Shading& s, Run run) {
+  if constexpr (requires { shared.by_solid_angle; }) {
+    if (!shared.by_solid_angle) {
+      L by_area = shared;
+      by_area.by_solid_angle = false;  // now a constant, which takes the other way out of the loop
+      return sample_lanes(by_area, s, run);
+    }
+  }
+  const Local<L> light = shared;
+  sample_lanes(light, s, run);
+}
+
+template <class B>
+PLUMBLINE_KERNEL void evaluate_type(const B& shared, Shading& s, Run run) {
+  const Local<B> bsdf = shared;
+  for (std::size_t k = run.first; k < run.end; ++k) {
+    const Vec3f wi = Frame<float>(s.normal[k]).to_local(s.to_light[k]);
+    BsdfValue<float> value;
+    if constexpr (requires { bsdf.evaluate(wi, wi); }) {
+      value = bsdf.evaluate(s.wo[k], wi);
+    } else {
+      value = {bsdf.eval(s.wo[k], wi), bsdf.pdf(s.wo[k], wi)};
+    }
+    s.f.set(k, value.f);
+    s.pdf_bsdf[k] = value.pdf_w;
+    s.cosine[k] = std::abs(wi.z);
+  }
+}
+
+void store(Shading& s, std::size_t k, const std::optional<BsdfSample<float>>& sample) {
+  const bool found = sample.has_value();
+  s.wi.set(k, found ? sample->wi : Vec3f{});
+  s.weight.set(k, found ? sample->weight : Rgbf{});
+  s.pdf_w[k] = found ? sample->pdf_w : 0;
+  s.refraction[k] = found ? sample->radiance_scale : 0;
+}
+
+template <class B>
+PLUMBLINE_KERNEL void sample_type(const B& shared, Shading& s, Run run) {
+  const Local<B> bsdf = shared;
+  for (std::size_t k = run.first; k < run.end; ++k) {
+    store(s, k, bsdf.sample(s.wo[k], Vec2f{s.u[k], s.v[k]}));
+  }
+}
+
+}  // namespace
+
+PLUMBLINE_KERNEL void to_local(Shading& s) {
+  for (std::size_t k = 0; k < s.count; ++k) {
+    s.wo.set(k, Frame<float>(s.normal[k]).to_local(-s.wo[k]));
+  }
+}
+
+void sample_light(const Light& light, Shading& s, Run run) {
+  std::visit([&](const auto& l) { sample_light_of_type(l, s, run); }, light);
+}
+
+void evaluate(const BsdfSet& bsdfs, std::uint32_t bsdf, Shading& s, Run run) {
+  bsdfs.visit(bsdf, [&](const auto& b, const auto&... set) {
+    if constexpr (sizeof...(set) == 0) {
+      evaluate_type(b, s, run);
+    } else {
+      for (std::size_t k = run.first; k < run.end; ++k) {
+        const Vec3f wi = Frame<float>(s.normal[k]).to_local(s.to_light[k]);
+        const BsdfValue<float> value = bsdfs.evaluate(bsdf, s.wo[k], wi);
+        s.f.set(k, value.f);
+        s.pdf_bsdf[k] = value.pdf_w;
+        s.cosine[k] = std::abs(wi.z);
+      }
+    }
+  });
+}
+
+std::size_t sample_bsdf(const BsdfSet& bsdfs, std::uint32_t bsdf, Shading& s, Run run) {
+  bsdfs.visit(bsdf, [&](const auto& b, const auto&... set) {
+    if constexpr (sizeof...(set) == 0) {
+      sample_type(b, s, run);
+    } else {
+      for (std::size_t k = run.first; k < run.end; ++k) {
+        store(s, k, bsdfs.sample(bsdf, s.wo[k], Vec2f{s.u[k], s.v[k]}));
+      }
+    }
+  });
+  std::size_t rejected = 0;
+  for (std::size_t k = run.first; k < run.end; ++k) {
+    rejected += s.refraction[k] > 0 ? 0u : 1u;
+  }
+  return rejected;
+}
+
+namespace {
+
+/// @param n_bsdf  0 or 1
+template <class Weight>
+PLUMBLINE_KERNEL void weigh(Shading& s, float n_bsdf, const Weight& weight) {
+  for (std::size_t k = 0; k < s.count; ++k) {
+    const float pdf = s.pdf_light[k], mass = s.mass[k];
+    const float w = weight(pdf, n_bsdf * s.pdf_bsdf[k]);
+    const float scale = s.cosine[k] * (mass > 0 ? 1.0f : w) / (mass > 0 ? mass : pdf);
+    s.contribution.set(k, s.throughput[k] * (s.f[k] * s.radiance[k] * scale));
+  }
+}
+
+PLUMBLINE_KERNEL void aim_shadow_rays(Shading& s) {
+  for (std::size_t k = 0; k < s.count; ++k) {
+    const SurfaceHit hit{s.position[k], s.normal[k], s.offset[k], 0, 0};
+    const Ray ray = shadow_ray(hit, {s.to_light[k], s.distance[k], s.cos_light[k], {}, 0, 0});
+    s.shadow_origin.set(k, ray.origin);
+    s.shadow_t_max[k] = ray.t_max;
+  }
+}
+
+void choose_kinds(Shading& s) {
+  for (std::size_t k = 0; k < s.count; ++k) {
+    const bool lit = (s.pdf_light[k] > 0 || s.mass[k] > 0) && !is_black(s.f[k]);
+    s.shadow_kind[k] = !lit ? kDropped : s.shadow_t_max[k] > 0 ? octant(s.to_light[k]) : kUnblocked;
+  }
+}
+
+}  // namespace
+
+void weigh_lights(const PathOptions& options, Shading& s) {
+  const float n_bsdf = options.strategy == Strategy::light ? 0.0f : 1.0f;
+  const Weighting& h = options.heuristic;
+  if (h.heuristic == Heuristic::power && h.parameter == 2) {
+    weigh(s, n_bsdf, [](float a, float b) { return mis_weight(Heuristic::power, a, b); });
+  } else if (h.heuristic == Heuristic::balance) {
+    weigh(s, n_bsdf, [](float a, float b) { return mis_weight(Heuristic::balance, a, b); });
+  } else {
+    weigh(s, n_bsdf, [&](float a, float b) { return mis_weight(h, a, b); });
+  }
+  aim_shadow_rays(s);
+  choose_kinds(s);
+}
+
+PLUMBLINE_KERNEL void apply_samples(Shading& s) {
+  for (std::size_t k = 0; k < s.count; ++k) {
+    s.throughput.set(k, s.throughput[k] * s.weight[k]);
+    s.scale[k] = s.scale[k] * s.refraction[k];
+  }
+}
+
+PLUMBLINE_KERNEL void roulette(Shading& s) {
+  for (std::size_t k = 0; k < s.count; ++k) {
+    const Rgbf throughput = s.throughput[k];
+    const float survival = survival_probability(throughput, s.scale[k]);
+    const Rgbf scaled = throughput / survival;
+    s.throughput.set(k, s.u[k] < survival ? scaled : Rgbf{});
+  }
+}
+
+PLUMBLINE_KERNEL void go_on(Shading& s) {
+  for (std::size_t k = 0; k < s.count; ++k) {
+    const SurfaceHit hit{s.position[k], s.normal[k], s.offset[k], 0, 0};
+    const Vec3f direction = Frame<float>(s.normal[k]).to_world(s.wi[k]);
+    s.next_direction.set(k, direction);
+    s.next_origin.set(k, hit.origin_towards(direction));
+    s.next_kind[k] = is_black(s.throughput[k]) ? kDropped : octant(direction);
+  }
+}
+
+}  // namespace plumbline::renderer
