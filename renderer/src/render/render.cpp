@@ -212,8 +212,8 @@ class Renderer {
       const DirectSample sample =
           sample_direct_light(scene_, ray, technique, u_light, random.next_2d(), counters);
       emission = sample.emission;
-      return TechniqueSample<Rgbd>{rgb_cast<double>(sample.value), double{sample.pdf},
-                                   double{sample.other_pdf}};
+      return TechniqueSample<Rgbd>{rgb_cast<double>(sample.value), static_cast<double>(sample.pdf),
+                                   static_cast<double>(sample.other_pdf)};
     };
     const auto record = [&](std::uint32_t iteration, std::size_t technique, const Rgbd& reflected) {
       if (technique == kBsdfTechnique) ++bsdf_counts[iteration];
