@@ -27,15 +27,23 @@ const BsdfSet& bsdfs() {
                             GgxDielectric{{0.3f, 0.3f}, {1.5f}}, SmoothConductor{kGold},
                             SmoothDielectric{{1.5f}}, ClearCoat(1.5f, 0.1f, {0.5f, 0.5f, 0.5f}),
                             ThinFilm{GgxConductor{{0.3f, 0.3f}, kGold}, {300, 1.5f}},
+                            ThinFilm{GgxDielectric{{0.3f, 0.3f}, {1.5f}}, {300, 1.3f}},
                             TwoSided{2, 2}, Mixture{0, 2, 0.5f}});
   return set;
 }
 
-constexpr Case kCases[] = {
-    {"lambertian", 0},         {"modified_phong", 1}, {"ggx_conductor", 2},
-    {"ggx_conductor_gold", 3}, {"ggx_dielectric", 4}, {"smooth_conductor", 5},
-    {"smooth_dielectric", 6},  {"clear_coat", 7},     {"thin_film_on_rough_gold", 8},
-    {"two_sided", 9},          {"mixture", 10}};
+constexpr Case kCases[] = {{"lambertian", 0},
+                           {"modified_phong", 1},
+                           {"ggx_conductor", 2},
+                           {"ggx_conductor_gold", 3},
+                           {"ggx_dielectric", 4},
+                           {"smooth_conductor", 5},
+                           {"smooth_dielectric", 6},
+                           {"clear_coat", 7},
+                           {"thin_film_on_rough_gold", 8},
+                           {"thin_film_on_rough_glass", 9},
+                           {"two_sided", 10},
+                           {"mixture", 11}};
 
 /// Directions and numbers that no branch predictor learns by heart.
 struct Inputs {

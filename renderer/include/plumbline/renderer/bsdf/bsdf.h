@@ -59,8 +59,10 @@ class BsdfSet {
                         [&](const auto& b, const auto&... set) { return b.eval(set..., wo, wi); });
   }
 
+  /// Not inlined: then the BSDF writes its answer where the caller wants it, without a copy.
   template <class T>
-  BsdfValue<T> evaluate(std::uint32_t i, const Vec3<T>& wo, const Vec3<T>& wi) const {
+  [[gnu::noinline]] BsdfValue<T> evaluate(std::uint32_t i, const Vec3<T>& wo,
+                                          const Vec3<T>& wi) const {
     return call<BsdfValue<T>>(i, [&](const auto& b, const auto&... set) {
       if constexpr (requires { b.evaluate(set..., wo, wi); }) {
         return b.evaluate(set..., wo, wi);

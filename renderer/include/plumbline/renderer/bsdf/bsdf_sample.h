@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <plumbline/renderer/math.h>
 
@@ -20,12 +21,41 @@ struct BsdfSample {
   bool is_atom() const { return mass > T(0); }
 };
 
+/// A sample of a density, written where the caller wants it: a record put together elsewhere and
+/// copied is read in wider pieces than it was written in, which the processor waits for.
+template <class T>
+[[gnu::always_inline]] inline std::optional<BsdfSample<T>> density_sample(
+    const Vec3<T>& wi, const Rgb<T>& weight, const T& pdf_w, const T& radiance_scale = T(1),
+    std::uint32_t lobe = 0) {
+  std::optional<BsdfSample<T>> result;
+  BsdfSample<T>& sample = result.emplace();
+  sample.wi = wi;
+  sample.weight = weight;
+  sample.pdf_w = pdf_w;
+  sample.radiance_scale = radiance_scale;
+  sample.lobe = lobe;
+  return result;
+}
+
+/// An atom, in the same way.
+template <class T>
+[[gnu::always_inline]] inline std::optional<BsdfSample<T>> atom_sample(
+    const Vec3<T>& wi, const Rgb<T>& weight, const T& mass, const T& radiance_scale = T(1),
+    std::uint32_t lobe = 0) {
+  auto result = density_sample(wi, weight, T(0), radiance_scale, lobe);
+  result->mass = mass;
+  return result;
+}
+
 /// A BSDF at a pair of directions. Both numbers lean on the same half vector, so asked together
 /// they cost little more than one of them.
 template <class T>
 struct BsdfValue {
   Rgb<T> f;    ///< [1/sr], as `eval` gives it
   T pdf_w{0};  ///< [1/sr], as `pdf` gives it
+  /// Returned in two registers, a value would be stored in halves and read as a whole, which the
+  /// processor waits for; one number more is returned in memory.
+  T beyond_registers{0};
 };
 
 /// What a BSDF is made of, whatever the directions.

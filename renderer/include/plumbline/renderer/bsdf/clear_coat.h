@@ -49,24 +49,19 @@ class ClearCoat {
   template <class T>
   BsdfValue<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi) const {
     if (!(wo.z > T(0) && wi.z > T(0))) return {};
-    const T albedo = coat_albedo(wo.z), coat_share = coat_probability(albedo);
-    const T share = (T(1) - albedo) * (T(1) - coat_albedo(wi.z)) / T(mean_let_in_);
-    const BsdfValue<T> coat = coat_.evaluate_with(reflectance_, wo, wi);
-    return {coat.f + base_.eval(wo, wi) * share,
-            coat_share * coat.pdf_w + (T(1) - coat_share) * base_.pdf(wo, wi)};
+    return evaluate_from(coat_at(wo.z), wo, wi);
   }
 
   /// @param u  in [0, 1)²; u.x chooses the lobe and is then rescaled
   template <class T>
   std::optional<BsdfSample<T>> sample(const Vec3<T>& wo, const Vec2<T>& u) const {
     if (!(wo.z > T(0))) return std::nullopt;
-    const auto choice = choose_lobe(u.x, lobe_probability(wo, 0));
-    auto result = sample_lobe(wo, choice.lobe, Vec2<T>{choice.u, u.y});
-    if (!result) return std::nullopt;
-    const BsdfValue<T> both = evaluate(wo, result->wi);
-    result->pdf_w = both.pdf_w;
-    result->weight = both.f * T(result->wi.z / both.pdf_w);
-    return result;
+    const CoatAt<T> coat = coat_at(wo.z);
+    const auto choice = choose_lobe(u.x, coat.probability);
+    const Vec3<T> wi = direction(wo, choice.lobe, Vec2<T>{choice.u, u.y});
+    if (!(wi.z > T(0))) return std::nullopt;
+    const BsdfValue<T> both = evaluate_from(coat, wo, wi);
+    return density_sample(wi, both.f * T(wi.z / both.pdf_w), both.pdf_w, T(1), choice.lobe);
   }
 
   /// @return pdf_w [1/sr] of `sample(wo, u)`: both lobes
@@ -80,15 +75,13 @@ class ClearCoat {
 
   template <class T>
   T lobe_probability(const Vec3<T>& wo, std::uint32_t lobe) const {
-    const T coat = coat_probability(coat_albedo(wo.z));
+    const T coat = coat_at(wo.z).probability;
     return lobe == 0 ? coat : T(T(1) - coat);
   }
 
   template <class T>
   std::optional<BsdfSample<T>> sample_lobe(const Vec3<T>& wo, std::uint32_t lobe,
                                            const Vec2<T>& u) const {
-    // The base gets the numbers the other way round: what was rescaled to choose a lobe turns the
-    // azimuth. As the height it would lose the digits that wi next to the horizon needs.
     auto result =
         lobe == 0 ? coat_.sample_with(reflectance_, wo, u) : base_.sample(wo, Vec2<T>{u.y, u.x});
     if (result) result->lobe = lobe;
@@ -103,30 +96,52 @@ class ClearCoat {
  private:
   static constexpr int kNodes = 65;
 
+  /// Of the coat, as seen from a direction.
+  template <class T>
+  struct CoatAt {
+    T albedo, probability;  // by the light that each lobe gives back
+  };
+
   /// The coat's reflectance from outside, in the place of ConductorFresnel.
   struct Reflectance {
     BareInterface interface;
 
     template <class T>
-    Rgb<T> operator()(const T& cosine) const {
-      return to_rgb(interface.template split<T>(static_cast<Wide<T>>(cosine), true).reflected);
+    [[gnu::always_inline]] Rgb<T> operator()(const T& cos2_o) const {
+      // From the thinner side T will do.
+      const T eta = T(interface.eta), gap = (eta - T(1)) * (eta + T(1));
+      return to_rgb(fresnel_dielectric(cos2_o, eta, gap).reflected);
     }
   };
 
-  /// Probability of the coat, by the light that each lobe gives back.
   template <class T>
-  T coat_probability(const T& coat_albedo) const {
-    return coat_albedo / (coat_albedo + (T(1) - coat_albedo) * mean(rgb_cast<T>(base_.albedo)));
+  [[gnu::always_inline]] BsdfValue<T> evaluate_from(const CoatAt<T>& seen, const Vec3<T>& wo,
+                                                    const Vec3<T>& wi) const {
+    const T share = (T(1) - seen.albedo) * (T(1) - coat_at(wi.z).albedo) * T(share_scale_);
+    const BsdfValue<T> coat = coat_.evaluate_with(reflectance_, wo, wi);
+    return {coat.f + base_.eval(wo, wi) * share,
+            seen.probability * coat.pdf_w + (T(1) - seen.probability) * base_.pdf(wo, wi)};
   }
 
-  /// E at a cosine, between nodes that are equally spaced in its root: E is steep at grazing.
+  /// The base gets the numbers the other way round: what was rescaled to choose a lobe turns the
+  /// azimuth. As the height it would lose the digits that wi next to the horizon needs.
   template <class T>
-  T coat_albedo(const T& cosine) const {
+  [[gnu::always_inline]] Vec3<T> direction(const Vec3<T>& wo, std::uint32_t lobe,
+                                           const Vec2<T>& u) const {
+    return lobe == 0 ? reflect(wo, coat_.ggx.sample_visible(wo, u))
+                     : square_to_cosine_hemisphere(Vec2<T>{u.y, u.x});
+  }
+
+  /// At a cosine, between nodes that are equally spaced in its root: E is steep at grazing.
+  template <class T>
+  [[gnu::always_inline]] CoatAt<T> coat_at(const T& cosine) const {
     const T place = safe_sqrt(cosine) * T(kNodes - 1);
-    const int below = std::clamp(static_cast<int>(place), 0, kNodes - 2);
+    const int below = std::min(static_cast<int>(place), kNodes - 2);
     const auto node = static_cast<std::size_t>(below);
     const T part = place - T(below);
-    return T(table_[node]) * (T(1) - part) + T(table_[node + 1]) * part;
+    const CoatAt<float>&a = table_[node], &b = table_[node + 1];
+    return {T(a.albedo) + (T(b.albedo) - T(a.albedo)) * part,
+            T(a.probability) + (T(b.probability) - T(a.probability)) * part};
   }
 
   /// Mean weight of the coat's samples over a grid of u; by symmetry over half of the azimuths, and
@@ -152,34 +167,38 @@ class ClearCoat {
     const auto albedo_at = [this](double node) {
       return integrate_albedo(std::max(sqr(node / (kNodes - 1)), 1e-6));
     };
+    std::array<float, kNodes> nodes{};
     for (std::size_t i = 0; i < kNodes; ++i) {
-      table_[i] = static_cast<float>(albedo_at(static_cast<double>(i)));
+      nodes[i] = static_cast<float>(albedo_at(static_cast<double>(i)));
     }
     constexpr float kGridError = 2.5e-4f;
-    std::array<float, kNodes> raised = table_;
+    std::array<float, kNodes> raised = nodes;
     for (std::size_t i = 0; i + 1 < kNodes; ++i) {
       const auto middle = static_cast<float>(albedo_at(static_cast<double>(i) + 0.5));
-      const float excess = std::max(middle - (table_[i] + table_[i + 1]) / 2, 0.0f) + kGridError;
+      const float excess = std::max(middle - (nodes[i] + nodes[i + 1]) / 2, 0.0f) + kGridError;
       for (const std::size_t node : {i, i + 1}) {
-        raised[node] = std::min(std::max(raised[node], table_[node] + excess), 1.0f);
+        raised[node] = std::min(std::max(raised[node], nodes[node] + excess), 1.0f);
       }
     }
-    table_ = raised;
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      const float coat = raised[i], base = (1 - coat) * mean(base_.albedo);
+      table_[i] = {coat, coat / (coat + base)};
+    }
 
     constexpr int kSteps = 4096;
     double let_in = 0;
     for (int i = 0; i < kSteps; ++i) {
       const double cosine = (i + 0.5) / kSteps;
-      let_in += 2 * cosine * (1 - coat_albedo(cosine)) / kSteps;
+      let_in += 2 * cosine * (1 - coat_at(cosine).albedo) / kSteps;
     }
-    mean_let_in_ = static_cast<float>(let_in);
+    share_scale_ = static_cast<float>(1 / let_in);
   }
 
   GgxConductor coat_;  // lends its lobe; what that reflects is up to `reflectance_`
   Reflectance reflectance_;
   Lambertian base_;
-  std::array<float, kNodes> table_{};
-  float mean_let_in_ = 1;
+  std::array<CoatAt<float>, kNodes> table_{};
+  float share_scale_ = 1;  // 1/(1 − E_mean)
 };
 
 }  // namespace plumbline::renderer

@@ -123,13 +123,13 @@ class FilmOnConductor {
     table_ = ReflectanceTable([this](double c) { return by_formula(c); });
   }
 
-  /// @param cos_o  in [0, 1]
+  /// @param cos2_o  square of the cosine, in [0, 1]
   template <class T>
-  Rgb<T> operator()(const T& cos_o) const {
+  [[gnu::always_inline]] Rgb<T> operator()(const T& cos2_o) const {
     if constexpr (std::is_same_v<T, float>) {
-      if (!table_.empty()) return table_(cos_o);
+      if (!table_.empty()) return table_(safe_sqrt(cos2_o));
     }
-    return by_formula(cos_o);
+    return by_formula(safe_sqrt(cos2_o));
   }
 
  private:
@@ -153,30 +153,49 @@ class FilmOnConductor {
 };
 
 /// In the place of BareInterface.
-struct FilmOnDielectric {
-  FilmLayer film;
-  float eta;  ///< of the base over the outside
+class FilmOnDielectric {
+ public:
+  /// @param eta  of the base over the outside
+  FilmOnDielectric(const FilmLayer& film, float eta) : film_(film), eta_(eta) {
+    const auto split_at = [this](double cosine) { return by_formula<double>(cosine); };
+    reflected_ = ReflectanceTable([&](double c) { return split_at(c).reflected; });
+    transmitted_ = ReflectanceTable([&](double c) { return split_at(c).transmitted; });
+    tabulated_ = !reflected_.empty() && !transmitted_.empty();
+  }
 
-  /// @param cos_o         on the side of wo, ≥ 0
-  /// @param from_outside  whether wo is outside
+  /// @param cos2_o, from_outside  as for BareInterface::split
   template <class T>
-  PowerSplit<Rgb<T>> split(const Wide<T>& cos_o, bool from_outside) const {
-    using W = Wide<T>;
-    // What is lossless reflects the same from both sides, so only the outside is worked out.
-    const W n = static_cast<W>(eta);
-    const W across = refracted_cosine(cos_o, relative_index<T>(eta, from_outside));
-    const W outside = from_outside ? cos_o : W(across * n);
-    const W inside = from_outside ? across : W(cos_o * n);
-    const W in_film = refracted_cosine(outside, static_cast<W>(film.eta));
-    if (!(across > W(0) && in_film > W(0))) {
-      return {{T(1), T(1), T(1)}, {T(0), T(0), T(0)}};
+  [[gnu::always_inline]] PowerSplit<Rgb<T>> split(const Wide<T>& cos2_o, bool from_outside) const {
+    const T cosine = safe_sqrt(thin_cosine_squared<T>(eta_, cos2_o, from_outside));
+    if constexpr (std::is_same_v<T, float>) {
+      if (tabulated_) {
+        return {reflected_(cosine), transmitted_(cosine)};
+      }
     }
-    const film_detail::FilmView<T> view(film, static_cast<T>(outside), static_cast<T>(in_film));
-    const Complex<T> square{sqr(T(eta)), T(0)}, cosine{static_cast<T>(inside), T(0)};
+    return by_formula<T>(static_cast<Wide<T>>(cosine));
+  }
+
+ private:
+  /// @param thin  cosine in the thinner one of outside and base
+  template <class T>
+  PowerSplit<Rgb<T>> by_formula(const Wide<T>& thin) const {
+    using W = Wide<T>;
+    const W across = refracted_cosine(thin, relative_index<T>(eta_, eta_ > 1));
+    const W outside = eta_ > 1 ? thin : W(across * static_cast<W>(eta_));
+    const W inside = eta_ > 1 ? across : W(thin * static_cast<W>(eta_));
+    const W in_film = refracted_cosine(outside, static_cast<W>(film_.eta));
+    if (!(thin > W(0) && in_film > W(0))) return {{T(1), T(1), T(1)}, {T(0), T(0), T(0)}};
+    const film_detail::FilmView<T> view(film_, static_cast<T>(outside), static_cast<T>(in_film));
+    const Complex<T> square{sqr(T(eta_)), T(0)}, cosine{static_cast<T>(inside), T(0)};
     const Rgb<T> t{view.transmittance(square, cosine, 0), view.transmittance(square, cosine, 1),
                    view.transmittance(square, cosine, 2)};
     return {{T(T(1) - t.r), T(T(1) - t.g), T(T(1) - t.b)}, t};
   }
+
+  FilmLayer film_;
+  float eta_;
+  ReflectanceTable reflected_, transmitted_;
+  bool tabulated_;
 };
 
 }  // namespace plumbline::renderer

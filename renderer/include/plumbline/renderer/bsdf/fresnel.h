@@ -32,34 +32,55 @@ T refracted_cosine(const T& cos_o, const T& eta) {
   return safe_sqrt(T((eta - T(1)) * (eta + T(1)) + sqr(cos_o)));
 }
 
-/// Fresnel's equations at the interface of two dielectrics.
+/// The square of the cosine on the thinner side of an interface. What is lossless splits light
+/// alike from both sides, and from the thinner one no angle is critical.
 ///
-/// Next to the critical angle close numbers are subtracted: call it in `Wide<T>`.
-/// @param cos_o, eta  as for refracted_cosine
-/// @source            Born, Wolf, Principles of Optics, Section 1.5.2, Eqs. 20–21a; with
-///                    g = η cosθt, g² − cos² = η² − 1 turns cos − g and η² cos − g into products
+/// @param eta, cos2_o, from_outside  as for BareInterface::split
+/// @return                           ≤ 0 where all is reflected
 template <class T>
-PowerSplit<T> fresnel_dielectric(const T& cos_o, const T& eta) {
-  const T g = refracted_cosine(cos_o, eta);
-  if (!(g > T(0))) return {T(1), T(0)};
+[[gnu::always_inline]] inline T thin_cosine_squared(float eta, const Wide<T>& cos2_o,
+                                                    bool from_outside) {
+  using W = Wide<T>;
+  if (from_outside == (eta > 1)) return static_cast<T>(cos2_o);
+  const W ratio = relative_index<T>(eta, eta > 1);
+  return static_cast<T>(sqr(ratio) * cos2_o - (ratio - W(1)) * (ratio + W(1)));
+}
+
+/// Fresnel's equations where two dielectrics meet, seen from the thinner one: nothing cancels.
+///
+/// @param cos2_o  square of the cosine on the thinner side, in [0, 1]
+/// @param eta     index of the denser over the thinner, ≥ 1
+/// @param gap     η² − 1, which cannot be had from a rounded η
+/// @source        Born, Wolf, Principles of Optics, Section 1.5.2, Eqs. 20–21a; with g = η cosθt,
+///                g² − cos² = η² − 1 turns cos − g and η² cos − g into products
+template <class T>
+[[gnu::always_inline]] inline PowerSplit<T> fresnel_dielectric(const T& cos2_o, const T& eta,
+                                                               const T& gap) {
+  const T cos_o = safe_sqrt(cos2_o), g = safe_sqrt(T(gap + cos2_o));
   const T eta2 = sqr(eta);
-  const T gap = (eta - T(1)) * (eta + T(1));
-  const T s = T(1) / sqr(T(cos_o + g)), p = T(1) / sqr(T(eta2 * cos_o + g));
+  const T sum_s = cos_o + g, sum_p = eta2 * cos_o + g, scale = T(1) / (sum_s * sum_p);
+  const T s = sqr(T(sum_p * scale)), p = sqr(T(sum_s * scale));
   const T r_s = gap * s;
-  const T r_p = gap * ((eta2 + T(1)) * sqr(cos_o) - T(1)) * p;
-  return {T((sqr(r_s) + sqr(r_p)) / T(2)), T(T(2) * cos_o * g * (s + eta2 * p))};
+  const T r_p = gap * ((eta2 + T(1)) * cos2_o - T(1)) * p;
+  // Rounding can exceed 1 along the surface.
+  return {std::min(T((sqr(r_s) + sqr(r_p)) / T(2)), T(1)), T(T(2) * cos_o * g * (s + eta2 * p))};
 }
 
 /// The bare interface of a dielectric, in the form that a film can take the place of.
 struct BareInterface {
   float eta;  ///< index inside (z < 0) over index outside
 
-  /// @param cos_o         on the side of wo, ≥ 0
+  /// @param cos2_o        square of the cosine on the side of wo, in [0, 1]; wide, because next to
+  ///                      the critical angle close numbers are subtracted
   /// @param from_outside  whether wo is outside
   template <class T>
-  PowerSplit<T> split(const Wide<T>& cos_o, bool from_outside) const {
-    const auto power = fresnel_dielectric(cos_o, relative_index<T>(eta, from_outside));
-    return {static_cast<T>(power.reflected), static_cast<T>(power.transmitted)};
+  [[gnu::always_inline]] PowerSplit<T> split(const Wide<T>& cos2_o, bool from_outside) const {
+    using W = Wide<T>;
+    if (eta == 1) return {T(0), T(1)};  // also along the surface, where the formula is 0/0
+    const T thin = thin_cosine_squared<T>(eta, cos2_o, from_outside);
+    if (!(thin > T(0))) return {T(1), T(0)};
+    const W ratio = relative_index<T>(eta, eta > 1), gap = (ratio - W(1)) * (ratio + W(1));
+    return fresnel_dielectric(thin, static_cast<T>(ratio), static_cast<T>(gap));
   }
 };
 
@@ -129,14 +150,14 @@ class ConductorFresnel {
   const Rgbf& eta() const { return eta_; }
   const Rgbf& k() const { return k_; }
 
-  /// @param cos_o  in [0, 1]
+  /// @param cos2_o  square of the cosine, in [0, 1]
   template <class T>
-  Rgb<T> operator()(const T& cos_o) const {
+  [[gnu::always_inline]] Rgb<T> operator()(const T& cos2_o) const {
     if constexpr (std::is_same_v<T, float>) {
-      if (!table_.empty()) return table_(cos_o);
+      if (!table_.empty()) return table_(safe_sqrt(cos2_o));
     }
     if (is_black(eta_)) return {T(1), T(1), T(1)};
-    return by_formula(cos_o);
+    return by_formula(safe_sqrt(cos2_o));
   }
 
  private:

@@ -12,14 +12,21 @@ namespace plumbline::renderer {
 struct Ggx {
   float alpha_x, alpha_y;  ///< roughness, 1e-4 … 1: Mitsuba's `alpha_u`, `alpha_v`
 
-  /// |(αx x, αy y, z)|, with which G1(w) = 2|z| / (|z| + S(w)) and the projected area of the
-  /// microsurface is (|z| + S(w))/2.
-  ///
-  /// @source Heitz 2014 (JCGT 3:2), Eq. 86
+  /// S(w) = |(αx x, αy y, z)|.
   template <class T>
   [[gnu::always_inline]] T stretched_length(const Vec3<T>& w) const {
     using std::sqrt;
     return sqrt(sqr(T(T(alpha_x) * w.x)) + sqr(T(T(alpha_y) * w.y)) + sqr(w.z));
+  }
+
+  /// |z| + S(w): twice the projected area of the microsurface, with which G1(w) = 2|z|/(|z| +
+  /// S(w)).
+  ///
+  /// @source Heitz 2014 (JCGT 3:2), Eq. 86
+  template <class T>
+  [[gnu::always_inline]] T visible_area(const Vec3<T>& w) const {
+    using std::abs;
+    return T(abs(w.z)) + stretched_length(w);
   }
 
   /// @return D [1/sr] of the normal along H
@@ -28,15 +35,15 @@ struct Ggx {
   [[gnu::always_inline]] T density(const Vec3<T>& normal) const {
     const T ax = T(alpha_x), ay = T(alpha_y), area = ax * ay;
     const T stretched = sqr(T(ay * normal.x)) + sqr(T(ax * normal.y)) + sqr(T(area * normal.z));
-    return sqr(T(area * length_squared(normal) / stretched)) * area * (T(1) / pi<T>());
+    return sqr(T(area * length_squared(normal) / stretched)) * T(area * (T(1) / pi<T>()));
   }
 
   /// @param w  unit
   /// @return   in [0, 1]
   template <class T>
-  T masking(const Vec3<T>& w) const {
-    const T z = w.z > T(0) ? w.z : T(-w.z);
-    return T(2) * z / (z + stretched_length(w));
+  [[gnu::always_inline]] T masking(const Vec3<T>& w) const {
+    using std::abs;
+    return T(2) * T(abs(w.z)) / visible_area(w);
   }
 
   /// A normal seen from wo.
@@ -44,6 +51,7 @@ struct Ggx {
   struct VisibleNormal {
     Vec3<T> normal;  ///< H, unnormalised, z ≥ 0
     T cosine;        ///< wo·H > 0
+    T area;          ///< visible_area(wo)
   };
 
   /// Samples normals in proportion to their visible area: G1(wo) max(0, wo·h) D(h) / cosθo.
@@ -67,7 +75,8 @@ struct Ggx {
     const SinCos<T> phi = sin_cos_turns(u.x);
     const Vec3<T> h{T(radius * phi.cos + w.x), T(radius * phi.sin + w.y), rim};
     // wo·H = |S wo| (w·h) with w·(c + w) = |c + w|²/2 for unit c and w: positive by construction.
-    return {{T(ax * h.x), T(ay * h.y), h.z}, T(stretch * length_squared(h) / T(2))};
+    return {
+        {T(ax * h.x), T(ay * h.y), h.z}, T(stretch * length_squared(h) / T(2)), T(wo.z + stretch)};
   }
 };
 

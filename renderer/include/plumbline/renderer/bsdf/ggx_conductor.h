@@ -44,37 +44,34 @@ struct GgxConductor {
   template <class T>
   [[gnu::always_inline]] T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
     if (!(wo.z > T(0) && wi.z > T(0))) return T(0);
-    return ggx.density(wo + wi) / (T(2) * (wo.z + ggx.stretched_length(wo)));
+    return ggx.density(wo + wi) * T(T(0.5) / ggx.visible_area(wo));
   }
 
-  /// The same under another reflectance, a function of the cosine: what a film makes of it.
+  /// The same under another reflectance, a function of the cosine's square: what a film makes of
+  /// it.
   ///
   /// @source Walter et al. 2007, Eq. 20: f = F D G/(4 cosθo cosθi) = F G1(wi)/cosθi pdf_w, where
   ///         Smith's G1/cosθ = 2/(cosθ + S) takes the cosine out, so that nothing is divided by one
   ///         near 0
   template <class T, class Reflectance>
-  BsdfValue<T> evaluate_with(const Reflectance& reflectance, const Vec3<T>& wo,
-                             const Vec3<T>& wi) const {
-    using std::sqrt;
+  [[gnu::always_inline]] BsdfValue<T> evaluate_with(const Reflectance& reflectance,
+                                                    const Vec3<T>& wo, const Vec3<T>& wi) const {
     if (!(wo.z > T(0) && wi.z > T(0))) return {};
     // wo·h = |wo + wi|/2 for unit vectors; the scalar product would cancel where wi → −wo.
-    const T cosine = std::min(T(sqrt(length_squared(wo + wi)) / T(2)), T(1));
-    const T pdf_w = pdf(wo, wi);
-    return {reflectance(cosine) * T(T(2) * pdf_w / (wi.z + ggx.stretched_length(wi))), pdf_w};
+    const T cos2 = std::min(T(length_squared(wo + wi) / T(4)), T(1)), pdf_w = pdf(wo, wi);
+    return {reflectance(cos2) * T(pdf_w * (T(2) / ggx.visible_area(wi))), pdf_w};
   }
 
   template <class T, class Reflectance>
   std::optional<BsdfSample<T>> sample_with(const Reflectance& reflectance, const Vec3<T>& wo,
                                            const Vec2<T>& u) const {
-    using std::sqrt;
     if (!(wo.z > T(0))) return std::nullopt;
     const auto visible = ggx.sample_visible(wo, u);
     const Vec3<T> wi = reflect(wo, visible);
     if (!(wi.z > T(0))) return std::nullopt;
     // f cosθi/pdf_w = F G1(wi): D, which may be huge, never enters. Heitz 2018, Eq. 19.
-    const T cosine = std::min(T(visible.cosine / sqrt(length_squared(visible.normal))), T(1));
-    return BsdfSample<T>{
-        .wi = wi, .weight = reflectance(cosine) * ggx.masking(wi), .pdf_w = pdf(wo, wi)};
+    const T cos2 = std::min(T(sqr(visible.cosine) / length_squared(visible.normal)), T(1));
+    return density_sample(wi, reflectance(cos2) * ggx.masking(wi), pdf(wo, wi));
   }
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
 
 #include <plumbline/renderer/bsdf/bsdf_sample.h>
@@ -11,12 +13,23 @@ namespace plumbline::renderer {
 /// Rough glass: single scattering between GGX microfacets that reflect or refract, like Mitsuba's
 /// `roughdielectric` with the distribution `ggx`. Lobe 0 reflects, lobe 1 refracts.
 ///
-/// Which of the two is sampled is decided before the normal is, by a guess of the reflectance over
-/// the visible normals: two numbers are all that `sample` gets, and the normal takes both. Seen
-/// from inside, wo is mirrored at the surface and η inverted.
+/// Which of the two is sampled is decided before the normal is, by a table over cosθo: two numbers
+/// are all that `sample` gets. Seen from inside, η is inverted.
 struct GgxDielectric {
   Ggx ggx;
   BareInterface interface;  ///< η ≠ 1: without a step of the index the refracted lobe is an atom
+
+  /// Tabulates which lobe to choose, which takes about a millisecond.
+  GgxDielectric(const Ggx& distribution, const BareInterface& bare)
+      : ggx(distribution), interface(bare) {
+    for (const bool outside : {false, true}) {
+      for (std::size_t i = 0; i < kNodes; ++i) {
+        const double guess = reflection_probability(static_cast<double>(i) / (kNodes - 1), outside);
+        reflects_[outside ? 1 : 0][i] =
+            std::clamp(static_cast<float>(guess), kLeastProbability, 1 - kLeastProbability);
+      }
+    }
+  }
 
   static constexpr BsdfParts parts() { return {.density = true, .transmission = true}; }
 
@@ -50,11 +63,14 @@ struct GgxDielectric {
   static constexpr std::uint32_t lobe_count() { return 2; }
 
   template <class T>
-  T lobe_probability(const Vec3<T>& wo, std::uint32_t lobe) const {
-    const T eta = static_cast<T>(relative_index<T>(interface.eta, wo.z > T(0)));
-    const T reflect = mean_reflectance(upright(wo, wo), eta);
-    const T probability = std::clamp(reflect, T(kLeastProbability), T(T(1) - T(kLeastProbability)));
-    return lobe == 0 ? probability : T(T(1) - probability);
+  [[gnu::always_inline]] T lobe_probability(const Vec3<T>& wo, std::uint32_t lobe) const {
+    const auto& table = reflects_[wo.z > T(0) ? 1 : 0];
+    const T place = (wo.z > T(0) ? wo.z : T(-wo.z)) * T(kNodes - 1);
+    const int below = std::min(static_cast<int>(place), kNodes - 2);
+    const auto node = static_cast<std::size_t>(below);
+    const T part = place - T(below), low = T(table[node]);
+    const T reflect = low + (T(table[node + 1]) - low) * part;
+    return lobe == 0 ? reflect : T(T(1) - reflect);
   }
 
   template <class T>
@@ -70,7 +86,7 @@ struct GgxDielectric {
   T pdf_lobe(const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) const {
     const auto half = half_vector(wo, wi);
     if (!half || half->refracts != (lobe == 1)) return T(0);
-    return density(*half, upright(wo, wo));
+    return ggx.density(half->normal) * T(half->jacobian / ggx.visible_area(wo));
   }
 
   /// The same at another interface of the same index: what a film makes of it.
@@ -81,74 +97,89 @@ struct GgxDielectric {
   BsdfValue<T> evaluate_with(const Interface& film, const Vec3<T>& wo, const Vec3<T>& wi) const {
     const auto half = half_vector(wo, wi);
     if (!half) return {};
-    const T lobe_pdf = density(*half, upright(wo, wo));
+    const T lobe_pdf = ggx.density(half->normal) * T(half->jacobian / ggx.visible_area(wo));
     const T pdf_w = lobe_probability(wo, half->refracts ? 1 : 0) * lobe_pdf;
-    const Vec3<T> i = upright(wi, wi);
-    const T common = T(2) * lobe_pdf / (i.z + ggx.stretched_length(i));
+    const T common = lobe_pdf * T(T(2) / ggx.visible_area(wi));
     if (!half->refracts) {
-      const auto power = film.template split<T>(half->wide_cos_o, wo.z > T(0));
-      return {to_rgb(power.reflected) * common, pdf_w};
+      const auto reflected = film.template split<T>(half->cos2_o, wo.z > T(0)).reflected;
+      return {to_rgb(reflected) * common, pdf_w};
     }
     // Both sides give the same share; the thinner one has no critical angle to lose digits at.
-    const bool thin_outside = interface.eta > 1;
-    const bool from_thin = (wo.z > T(0)) == thin_outside;
-    const auto power =
-        film.template split<T>(from_thin ? half->wide_cos_o : half->wide_cos_i, thin_outside);
+    const Wide<T> cos2 = has_critical_angle(wo) ? half->cos2_i : half->cos2_o;
+    const auto transmitted = film.template split<T>(cos2, interface.eta > 1).transmitted;
     const T eta = static_cast<T>(relative_index<T>(interface.eta, wo.z > T(0)));
-    return {to_rgb(power.transmitted) * T(common / sqr(eta)), pdf_w};
+    return {to_rgb(transmitted) * T(common / sqr(eta)), pdf_w};
   }
 
   template <class T, class Interface>
   std::optional<BsdfSample<T>> sample_with(const Interface& film, const Vec3<T>& wo,
                                            const Vec2<T>& u) const {
+    if (wo.z == T(0)) return std::nullopt;
     const T reflect = lobe_probability(wo, 0);
     const auto choice = choose_lobe(u.x, reflect);
     const T probability = choice.lobe == 0 ? reflect : T(T(1) - reflect);
-    auto result = sample_lobe_with(film, wo, choice.lobe, Vec2<T>{choice.u, u.y});
-    if (!result) return std::nullopt;
-    // The lobes do not overlap: the other one adds no density.
-    result->weight = result->weight / probability;
-    result->pdf_w = result->pdf_w * probability;
-    return result;
+    return scatter(film, wo, choice.lobe, probability, Vec2<T>{choice.u, u.y});
   }
 
   template <class T, class Interface>
   std::optional<BsdfSample<T>> sample_lobe_with(const Interface& film, const Vec3<T>& wo,
                                                 std::uint32_t lobe, const Vec2<T>& u) const {
-    using std::sqrt;
-    using W = Wide<T>;
     if (wo.z == T(0)) return std::nullopt;
-    const Vec3<T> up = upright(wo, wo);
-    const auto visible = ggx.sample_visible(up, u);
-    const W eta = relative_index<T>(interface.eta, wo.z > T(0));
-    const T length = sqrt(length_squared(visible.normal));
-    const T cosine = std::min(T(visible.cosine / length), T(1));
-    const W wide_cosine = static_cast<W>(cosine);
-    const auto power = film.template split<T>(wide_cosine, wo.z > T(0));
-    BsdfSample<T> result;
-    result.lobe = lobe;
-    if (lobe == 0) {
-      result.wi = reflect(up, visible);
-      if (!(result.wi.z > T(0))) return std::nullopt;
-      result.weight = to_rgb(power.reflected) * ggx.masking(result.wi);
-    } else {
-      // wi = ((cos − g) h − wo)/η with g = η cosθt: Walter et al. 2007, Eq. 40
-      const T g = static_cast<T>(refracted_cosine(wide_cosine, eta));
-      const T inverse_eta = static_cast<T>(W(1) / eta);
-      result.wi = (visible.normal * T((cosine - g) / length) - up) * inverse_eta;
-      if (!(g > T(0) && result.wi.z < T(0))) return std::nullopt;
-      result.radiance_scale = sqr(inverse_eta);
-      result.weight = to_rgb(power.transmitted) * T(ggx.masking(result.wi) * sqr(inverse_eta));
-    }
-    result.wi = upright(wo, result.wi);
-    result.pdf_w = pdf_lobe(wo, result.wi, lobe);
-    return result;
+    return scatter(film, wo, lobe, T(1), u);
   }
 
  private:
-  /// Least probability of a lobe: some normals reflect, and some refract, where the guess says that
-  /// none do.
+  /// Least probability of a lobe: some normals reflect, and some refract, where next to none do.
   static constexpr float kLeastProbability = 0.05f;
+  static constexpr int kNodes = 65;  // of the table, equally spaced in |cosθo|
+
+  /// One lobe, chosen with `probability`. The lobes do not overlap: the other adds no density.
+  template <class T, class Interface>
+  [[gnu::always_inline]] std::optional<BsdfSample<T>> scatter(const Interface& film,
+                                                              const Vec3<T>& wo, std::uint32_t lobe,
+                                                              const T& probability,
+                                                              const Vec2<T>& u) const {
+    using std::sqrt;
+    using W = Wide<T>;
+    const Vec3<T> up = upright(wo, wo);
+    const auto visible = ggx.sample_visible(up, u);
+    const T inverse_length = T(1) / sqrt(length_squared(visible.normal));
+    T cosine = std::min(T(visible.cosine * inverse_length), T(1));
+    W cos2 = sqr(static_cast<W>(cosine));
+    if (has_critical_angle(wo)) {
+      const Vec3<W> normal = vec_cast<W>(visible.normal);
+      cos2 = std::min(W(sqr(dot(vec_cast<W>(up), normal)) / length_squared(normal)), W(1));
+      cosine = static_cast<T>(safe_sqrt(cos2));
+    }
+    if (lobe == 0) {
+      const Vec3<T> wi = reflect(up, visible);
+      if (!(wi.z > T(0))) return std::nullopt;
+      const auto reflected = film.template split<T>(cos2, wo.z > T(0)).reflected;
+      const Vec3<T> there = upright(wo, wi);
+      return density_sample(there, to_rgb(reflected) * T(ggx.masking(wi) / probability),
+                            T(probability * pdf_lobe(wo, there, 0)));
+    }
+    // wi = ((cos − g) h − wo)/η with g = η cosθt: Walter et al. 2007, Eq. 40
+    const W eta = relative_index<T>(interface.eta, wo.z > T(0));
+    const W gap = (eta - W(1)) * (eta + W(1));
+    const T g = safe_sqrt(static_cast<T>(gap + cos2));
+    const T shrink = static_cast<T>(W(1) / eta);
+    const Vec3<T> wi = (visible.normal * T((cosine - g) * inverse_length) - up) * shrink;
+    if (!(g > T(0) && wi.z < T(0))) return std::nullopt;
+    const auto transmitted = film.template split<T>(cos2, wo.z > T(0)).transmitted;
+    // The Jacobian as in half_vector, with |wo + η wi| = |cos − g| = |η² − 1|/(cos + g).
+    const T density = probability * ggx.density(visible.normal) / visible.area;
+    const T jacobian = T(2) * cosine * g * sqr(T((cosine + g) / static_cast<T>(gap))) / shrink;
+    return density_sample(upright(wo, wi),
+                          to_rgb(transmitted) * T(ggx.masking(wi) * sqr(shrink) / probability),
+                          T(density * jacobian), sqr(shrink), 1);
+  }
+
+  /// Whether wo is on the denser side, where a cosine in float would not do.
+  template <class T>
+  bool has_critical_angle(const Vec3<T>& wo) const {
+    return (wo.z > T(0)) != (interface.eta > 1);
+  }
 
   /// Mirrors w at the surface if wo is inside.
   template <class T>
@@ -159,19 +190,10 @@ struct GgxDielectric {
   template <class T>
   struct HalfVector {
     bool refracts;
-    Vec3<T> normal;  // unnormalised, on the side of wo made upright
-    T cos_o, cos_i;  // |wo·h|, |wi·h|
-    Wide<T> wide_cos_o, wide_cos_i;
-    T inverse_square;  // of η: η²/|wo + η wi|², refraction only
+    Vec3<T> normal;          // unnormalised, on the side of wo
+    Wide<T> cos2_o, cos2_i;  // squares of wo·h and wi·h
+    T jacobian;              // 2 (wo·h) |∂h/∂wi|
   };
-
-  /// pdf_w of the lobe that the half vector belongs to, wo made upright.
-  template <class T>
-  T density(const HalfVector<T>& half, const Vec3<T>& up) const {
-    const T visible = ggx.density(half.normal) / (up.z + ggx.stretched_length(up));
-    if (!half.refracts) return visible / T(2);
-    return T(2) * visible * half.cos_o * half.cos_i * half.inverse_square;
-  }
 
   /// The normal that takes wo to wi. Wide, because η wi rounded to float would move a normal at
   /// α = 1e-4 by a thousandth of its lobe.
@@ -179,56 +201,48 @@ struct GgxDielectric {
   /// @return nullopt if it does not show its front to wo, or refracts to the side of wo
   /// @source Walter et al. 2007, Eqs. 13 and 16
   template <class T>
-  std::optional<HalfVector<T>> half_vector(const Vec3<T>& wo, const Vec3<T>& wi) const {
-    using std::sqrt;
+  [[gnu::always_inline]] std::optional<HalfVector<T>> half_vector(const Vec3<T>& wo,
+                                                                  const Vec3<T>& wi) const {
     using W = Wide<T>;
     if (wo.z * wi.z == T(0)) return std::nullopt;
-    const Vec3<W> o = vec_cast<W>(upright(wo, wo)), i = vec_cast<W>(upright(wo, wi));
-    const bool refracts = i.z < W(0);
-    const W eta = refracts ? relative_index<T>(interface.eta, wo.z > T(0)) : W(1);
-    Vec3<W> h = o + i * eta;
-    const W square = length_squared(h);
-    if (h.z < W(0)) h = -h;
-    const W scale = W(1) / sqrt(square);
-    const W cos_o = dot(o, h) * scale, cos_i = refracts ? W(-dot(i, h) * scale) : cos_o;
-    if (!(cos_o > W(0) && cos_i > W(0))) return std::nullopt;
-    return HalfVector<T>{refracts,
-                         vec_cast<T>(h),
-                         static_cast<T>(cos_o),
-                         static_cast<T>(cos_i),
-                         std::min(cos_o, W(1)),
-                         std::min(cos_i, W(1)),
-                         static_cast<T>(W(sqr(eta) / square))};
-  }
-
-  /// A guess of the mean reflectance of the normals that wo sees: Schlick's at three normals of
-  /// mean height on the cap of Ggx::sample_visible, at the nodes of Chebyshev in azimuth.
-  template <class T>
-  T mean_reflectance(const Vec3<T>& wo, const T& eta) const {
-    using std::sqrt;
-    const T stretch = ggx.stretched_length(wo);
-    const T wz = wo.z / stretch, wt = safe_sqrt(T(T(1) - sqr(wz)));
-    const T z = (T(1) - wz) / T(2), t = sqrt(T(T(1) - sqr(z)));
-    const T alpha2 = T(ggx.alpha_x) * T(ggx.alpha_y);
-    T sum(0);
-    for (const float cos_phi : {-0.8660254f, 0.0f, 0.8660254f}) {
-      const T across = wt * t * T(cos_phi);
-      const T height2 = sqr(T(z + wz)), tangent2 = sqr(wt) + sqr(t) + T(2) * across;
-      sum = sum +
-            schlick(T(stretch * (T(1) + across + wz * z) / sqrt(T(alpha2 * tangent2 + height2))),
-                    eta);
+    if (wo.z * wi.z > T(0)) {
+      const Vec3<T> h = wo + wi;
+      const W square = has_critical_angle(wo) ? length_squared(vec_cast<W>(wo) + vec_cast<W>(wi))
+                                              : static_cast<W>(length_squared(h));
+      const W cos2 = std::min(W(square / W(4)), W(1));
+      return HalfVector<T>{false, h, cos2, cos2, T(0.5)};
     }
-    return sum / T(3);
+    const Vec3<W> o = vec_cast<W>(wo), i = vec_cast<W>(wi);
+    const W eta = relative_index<T>(interface.eta, wo.z > T(0));
+    Vec3<W> h = o + i * eta;
+    if (h.z * o.z < W(0)) h = -h;
+    const W o_h = dot(o, h), i_h = -dot(i, h);
+    if (!(o_h > W(0) && i_h > W(0))) return std::nullopt;
+    const W scale = W(1) / length_squared(h), cos2_o = sqr(o_h) * scale, cos2_i = sqr(i_h) * scale;
+    return HalfVector<T>{true, vec_cast<T>(h), std::min(cos2_o, W(1)), std::min(cos2_i, W(1)),
+                         static_cast<T>(W(2) * o_h * i_h * sqr(W(eta * scale)))};
   }
 
-  /// @source Schlick 1994, from the cosine on the thinner side, so that total reflection is met
-  template <class T>
-  static T schlick(const T& cos_o, const T& eta) {
-    const T cosine = eta < T(1) ? T(refracted_cosine(cos_o, eta) / eta) : cos_o;
-    const T x = std::max(T(T(1) - cosine), T(0));
-    const T normal = sqr(T((eta - T(1)) / (eta + T(1))));
-    return normal + (T(1) - normal) * sqr(sqr(x)) * x;
+  /// Probability of reflection that lets the weights vary least: by the mean squares of both lobes'
+  /// own, over the azimuths of wo too.
+  double reflection_probability(double cosine, bool outside) const {
+    constexpr int kAzimuths = 4, kGrid = 8;
+    std::array<double, 2> squares{};
+    for (int i = 0; i < kAzimuths * kGrid * kGrid; ++i) {
+      const auto phi = sin_cos_turns((i % kAzimuths + 0.5) / (4 * kAzimuths));
+      const double sine = safe_sqrt(1 - sqr(cosine)), z = std::max(cosine, 1e-6);
+      const int cell = i / kAzimuths;
+      const Vec2<double> u{(cell % kGrid + 0.5) / kGrid, (cell / kGrid + 0.5) / kGrid};
+      for (const std::uint32_t lobe : {0u, 1u}) {
+        const auto sample =
+            sample_lobe(Vec3d{sine * phi.cos, sine * phi.sin, outside ? z : -z}, lobe, u);
+        if (sample) squares[lobe] += sqr(sample->weight.g / sample->radiance_scale);
+      }
+    }
+    return squares[0] > 0 ? 1 / (1 + std::sqrt(squares[1] / squares[0])) : 0;
   }
+
+  std::array<std::array<float, kNodes>, 2> reflects_{};  // seen from inside, from outside
 };
 
 }  // namespace plumbline::renderer

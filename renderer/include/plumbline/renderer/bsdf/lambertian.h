@@ -23,7 +23,7 @@ struct Lambertian {
   template <class T>
   Rgb<T> eval(const Vec3<T>& wo, const Vec3<T>& wi) const {
     if (!(wo.z > T(0) && wi.z > T(0))) return {};
-    return rgb_cast<T>(albedo) / pi<T>();
+    return rgb_cast<T>(albedo) * T(T(1) / pi<T>());
   }
 
   /// @param u  in [0, 1)²
@@ -35,7 +35,7 @@ struct Lambertian {
     if (!(wi.z > T(0))) return std::nullopt;
     // f cosθ / pdf_w = (albedo/π) cosθ / (cosθ/π): the cosine never enters, so nothing is lost at
     // grazing.
-    return BsdfSample<T>{.wi = wi, .weight = rgb_cast<T>(albedo), .pdf_w = pdf(wo, wi)};
+    return density_sample(wi, rgb_cast<T>(albedo), pdf(wo, wi));
   }
 
   /// @return pdf_w [1/sr] of `sample(wo, u)`

@@ -34,17 +34,24 @@ struct Mixture {
   /// @param u  in [0, 1)²; u.x chooses and is then rescaled
   template <class Set, class T>
   std::optional<BsdfSample<T>> sample(const Set& set, const Vec3<T>& wo, const Vec2<T>& u) const {
+    using std::abs;
     const auto choice = choose_lobe(u.x, share<T>(0));
     const bool chose_second = choice.lobe == 1;
+    const T own = share<T>(choice.lobe), others = share<T>(1 - choice.lobe);
     auto result = set.sample(chose_second ? second : first, wo, Vec2<T>{choice.u, u.y});
-    if (!result) return std::nullopt;
-    if (chose_second) result->lobe += set.lobe_count(first);
-    // An atom meets no density: its light and its probability shrink alike, and its weight stays.
-    if (result->is_atom()) {
-      result->mass = result->mass * share<T>(choice.lobe);
-      return result;
+    if (result && chose_second) result->lobe += set.lobe_count(first);
+    if (result && result->is_atom()) {
+      // It meets no density: its light and its probability shrink alike, and its weight stays.
+      result->mass = result->mass * own;
+    } else if (result) {
+      // The other child could have made it too: the weight is Σ w_k f_k cosθi / pdf.
+      const BsdfValue<T> other = set.evaluate(chose_second ? first : second, wo, result->wi);
+      const T own_pdf = own * result->pdf_w;
+      result->pdf_w = own_pdf + others * other.pdf_w;
+      result->weight = (result->weight * own_pdf + other.f * T(others * abs(result->wi.z))) *
+                       T(T(1) / result->pdf_w);
     }
-    return with_density_of_both(set, wo, *result);
+    return result;
   }
 
   /// @return pdf_w [1/sr] of `sample(wo, u)`
@@ -94,18 +101,6 @@ struct Mixture {
   template <class T>
   T share(std::uint32_t which) const {
     return which == 0 ? T(1) - T(weight) : T(weight);
-  }
-
-  /// The weight of a density sample that either child could have made: Σ w_k f_k cosθi / pdf.
-  template <class Set, class T>
-  std::optional<BsdfSample<T>> with_density_of_both(const Set& set, const Vec3<T>& wo,
-                                                    BsdfSample<T> sample) const {
-    using std::abs;
-    const BsdfValue<T> both = evaluate(set, wo, sample.wi);
-    if (!(both.pdf_w > T(0))) return std::nullopt;
-    sample.pdf_w = both.pdf_w;
-    sample.weight = both.f * T(abs(sample.wi.z) / both.pdf_w);
-    return sample;
   }
 };
 

@@ -50,8 +50,7 @@ struct ModifiedPhong {
     if (!(wi.z > T(0))) return std::nullopt;
     // f cosθi/pdf_w: the lobe cancels.
     const T scale = (T(exponent) + T(2)) / (T(exponent) + T(1));
-    return BsdfSample<T>{
-        .wi = wi, .weight = rgb_cast<T>(reflectance) * T(scale * wi.z), .pdf_w = density(log_cos)};
+    return density_sample(wi, rgb_cast<T>(reflectance) * T(scale * wi.z), density(log_cos));
   }
 
   /// @return pdf_w [1/sr] of `sample(wo, u)`: (n + 1)/(2π) cosⁿα above the horizon

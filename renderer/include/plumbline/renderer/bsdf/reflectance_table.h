@@ -24,17 +24,19 @@ class ReflectanceTable {
   template <class Reflectance>
   explicit ReflectanceTable(const Reflectance& reflectance) {
     for (int pieces = 16; pieces <= kMostPieces; pieces *= 2) {
-      if (fit(reflectance, pieces)) return;
+      if (!fit(reflectance, pieces)) continue;
+      count_ = pieces;
+      return;
     }
     pieces_.clear();
   }
 
-  bool empty() const { return pieces_.empty(); }
+  bool empty() const { return count_ == 0; }
 
   /// @param cosine  in [0, 1]
-  Rgbf operator()(float cosine) const {
-    const float place = cosine * static_cast<float>(pieces_.size());
-    const int piece = std::min(static_cast<int>(place), static_cast<int>(pieces_.size()) - 1);
+  [[gnu::always_inline]] Rgbf operator()(float cosine) const {
+    const float place = cosine * static_cast<float>(count_);
+    const int piece = std::min(static_cast<int>(place), count_ - 1);
     return value(pieces_[static_cast<std::size_t>(piece)], place - static_cast<float>(piece));
   }
 
@@ -62,7 +64,7 @@ class ReflectanceTable {
     return cubic;
   }
 
-  static Rgbf value(const Cubic& cubic, float x) {
+  [[gnu::always_inline]] static Rgbf value(const Cubic& cubic, float x) {
     Channels sum = cubic[3];
     for (std::size_t power = 3; power-- > 0;) {
       for (std::size_t c = 0; c < 4; ++c) sum[c] = sum[c] * x + cubic[power][c];
@@ -91,6 +93,7 @@ class ReflectanceTable {
   }
 
   std::vector<Cubic> pieces_;
+  int count_ = 0;  // of pieces
 };
 
 }  // namespace plumbline::renderer

@@ -30,12 +30,13 @@ struct SmoothConductor {
     return T(0);
   }
 
-  /// The same under another reflectance, a function of the cosine: what a film makes of it.
+  /// The same under another reflectance, a function of the cosine's square: what a film makes of
+  /// it.
   template <class T, class Reflectance>
   std::optional<BsdfSample<T>> sample_with(const Reflectance& reflectance, const Vec3<T>& wo,
                                            const Vec2<T>&) const {
     if (!(wo.z > T(0))) return std::nullopt;
-    return BsdfSample<T>{.wi = mirror(wo), .weight = reflectance(wo.z), .mass = T(1)};
+    return atom_sample(mirror(wo), reflectance(sqr(wo.z)), T(1));
   }
 };
 

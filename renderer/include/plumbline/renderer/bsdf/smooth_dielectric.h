@@ -80,8 +80,7 @@ struct SmoothDielectric {
  private:
   template <class T, class Interface>
   static auto split_at(const Interface& film, const Vec3<T>& wo) {
-    const auto z = static_cast<Wide<T>>(wo.z);
-    return film.template split<T>(z > Wide<T>(0) ? z : Wide<T>(-z), wo.z > T(0));
+    return film.template split<T>(sqr(static_cast<Wide<T>>(wo.z)), wo.z > T(0));
   }
 
   template <class T, class S>

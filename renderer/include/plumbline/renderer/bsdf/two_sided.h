@@ -32,7 +32,9 @@ struct TwoSided {
 
   template <class Set, class T>
   std::optional<BsdfSample<T>> sample(const Set& set, const Vec3<T>& wo, const Vec2<T>& u) const {
-    return from_front(wo, set.sample(side(wo), to_front(wo, wo), u));
+    auto result = set.sample(side(wo), to_front(wo, wo), u);
+    if (result) result->wi = to_front(wo, result->wi);
+    return result;
   }
 
   /// @return pdf_w [1/sr] of `sample(wo, u)`
@@ -57,7 +59,9 @@ struct TwoSided {
   std::optional<BsdfSample<T>> sample_lobe(const Set& set, const Vec3<T>& wo, std::uint32_t lobe,
                                            const Vec2<T>& u) const {
     if (lobe >= set.lobe_count(side(wo))) return std::nullopt;
-    return from_front(wo, set.sample_lobe(side(wo), to_front(wo, wo), lobe, u));
+    auto result = set.sample_lobe(side(wo), to_front(wo, wo), lobe, u);
+    if (result) result->wi = to_front(wo, result->wi);
+    return result;
   }
 
   template <class Set, class T>
@@ -75,13 +79,6 @@ struct TwoSided {
   template <class T>
   static Vec3<T> to_front(const Vec3<T>& wo, const Vec3<T>& w) {
     return wo.z < T(0) ? Vec3<T>{w.x, w.y, T(-w.z)} : w;
-  }
-
-  template <class T>
-  static std::optional<BsdfSample<T>> from_front(const Vec3<T>& wo,
-                                                 std::optional<BsdfSample<T>> sample) {
-    if (sample) sample->wi = to_front(wo, sample->wi);
-    return sample;
   }
 };
 

@@ -21,7 +21,7 @@ Vec3<T> square_to_cosine_hemisphere(const Vec2<T>& u) {
 /// @return pdf_w [1/sr] = cosθ/π; 0 below the horizon
 template <class T>
 T square_to_cosine_hemisphere_pdf_w(const Vec3<T>& w) {
-  return w.z > T(0) ? T(w.z / pi<T>()) : T(0);
+  return w.z > T(0) ? T(w.z * (T(1) / pi<T>())) : T(0);
 }
 
 /// Uniform direction on the hemisphere about +z.
