@@ -99,6 +99,27 @@ TEST(DarkHalo, MetalWithoutLossStaysBrightToTheHorizon) {
   }
 }
 
+TEST(TwoSided, BehindItIsTheFrontMirroredAtTheSurface) {
+  const BsdfSet set({GgxConductor{{0.1f, 0.3f}, copper()}, TwoSided{0, 0}});
+  const BsdfRef metal(set, 0), both(set, 1);
+  const auto mirrored = [](const Vec3f& w) { return Vec3f{w.x, w.y, -w.z}; };
+  verify::Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const auto anywhere = [&random] {
+      const double cosine = random.uniform();
+      return direction(cosine, 6.28 * random.uniform());
+    };
+    const Vec3f wo = anywhere(), wi = anywhere();
+    EXPECT_EQ(both.eval(mirrored(wo), mirrored(wi)), metal.eval(wo, wi));
+    const Vec2f u{random.uniform_float(), 0.3f};
+    const auto front = metal.sample(wo, u), behind = both.sample(mirrored(wo), u);
+    ASSERT_EQ(front.has_value(), behind.has_value());
+    if (front) {
+      EXPECT_EQ(length(mirrored(behind->wi) - front->wi), 0);
+    }
+  }
+}
+
 TEST(SmoothDielectric, OfIndexOneIsInvisible) {
   const SmoothDielectric air{{1}};
   for (const double cosine : {1.0, 0.5, 0.01, -0.01, -1.0}) {
