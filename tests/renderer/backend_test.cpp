@@ -116,6 +116,17 @@ TEST(Backends, GiveTheSameBitsOnAMeshOfManyTriangles) {
   EXPECT_EQ(differing_pixels(pair), 0u);
 }
 
+TEST(Backends, GiveTheSameBitsOfASkyAlone) {
+  SceneDescription description = tests::empty_scene(20, 15);
+  description.bsdfs.clear();
+  description.environment = Rgbd{1, 2, 3};
+  const Scene scene(description);
+  const Pair pair = render_both(scene, options_of(description, Strategy::mis, SamplerType::sobol));
+  EXPECT_EQ(differing_pixels(pair), 0u);
+  EXPECT_EQ(pair.batched.film.at(3, 5).mean.b, 3);
+  EXPECT_EQ(pair.batched.counters.shadow_rays, 0u);
+}
+
 TEST(Backends, AgreeToRoundingOnSpheres) {
   // Embree rounds the distance to a sphere differently for one ray and for sixteen: positions
   // differ by 2^-24 of the sphere's size and of the distance. Paths between spheres multiply it by

@@ -24,7 +24,8 @@ class CountingSort {
       order_[ends_[keys[i]]++] = static_cast<std::uint32_t>(i);
   }
 
-  /// Where the run of a key ends in order(); that of the next one starts there.
+  /// Where the run of a key starts in order(), and where it ends.
+  std::size_t begin(std::size_t key) const { return key == 0 ? 0 : ends_[key - 1]; }
   std::size_t end(std::size_t key) const { return ends_[key]; }
   const IndexLanes& order() const { return order_; }
 
@@ -255,7 +256,7 @@ class Batch final : public BatchTracer {
       keys_[i] = static_cast<std::uint32_t>(bsdf == kNoHit ? escaped : bsdf * stride + light);
     }
     sort_.sort(keys_, now_->count, escaped + 1);
-    const std::size_t count = sort_.end(escaped - 1);
+    const std::size_t count = sort_.begin(escaped);
     const IndexLanes& order = sort_.order();
     s_.count = count;
     gather(s_.bsdf, hits_.bsdf, order, count);
@@ -294,7 +295,7 @@ class Batch final : public BatchTracer {
   void cast_shadows(PathCounters& counters) {
     sort_.sort(s_.shadow_kind, s_.count, kKinds);
     const IndexLanes& order = sort_.order();
-    const std::size_t count = sort_.end(kUnblocked - 1), lit = sort_.end(kUnblocked);
+    const std::size_t count = sort_.begin(kUnblocked), lit = sort_.end(kUnblocked);
     counters.shadow_rays += lit;
     gather(shadow_.origin, s_.shadow_origin, order, count);
     gather(shadow_.direction, s_.to_light, order, count);
