@@ -231,8 +231,8 @@ struct GgxDielectric {
     for (int i = 0; i < kAzimuths * kGrid * kGrid; ++i) {
       const auto phi = sin_cos_turns((i % kAzimuths + 0.5) / (4 * kAzimuths));
       const double sine = safe_sqrt(1 - sqr(cosine)), z = std::max(cosine, 1e-6);
-      const int cell = i / kAzimuths;
-      const Vec2<double> u{(cell % kGrid + 0.5) / kGrid, (cell / kGrid + 0.5) / kGrid};
+      const int cell = i / kAzimuths, column = cell % kGrid, row = cell / kGrid;
+      const Vec2<double> u{(column + 0.5) / kGrid, (row + 0.5) / kGrid};
       for (const std::uint32_t lobe : {0u, 1u}) {
         const auto sample =
             sample_lobe(Vec3d{sine * phi.cos, sine * phi.sin, outside ? z : -z}, lobe, u);
