@@ -15,14 +15,6 @@
 namespace plumbline::bench {
 namespace {
 
-struct LitScene {
-  const char *name, *title;
-};
-constexpr LitScene kScenes[] = {{"cornell", "Cornell box"},
-                                {"veach", "Veach's plates"},
-                                {"displaced_sphere", "1M triangles"},
-                                {"many_spheres", "100k spheres"}};
-
 /// One strategy's side of the comparison.
 struct Side {
   renderer::RenderOptions options;
@@ -38,7 +30,7 @@ double rays_per_path(const renderer::PathCounters& c) {
   return per_path(c.camera_rays + c.bounce_rays + c.shadow_rays, c);
 }
 
-std::vector<std::string> measure(const LitScene& lit, int repetitions) {
+std::vector<std::string> measure(const NamedScene& lit, int repetitions) {
   const auto description = load_at_size(lit.name, 96, 96);
   const renderer::Scene scene(description);
   Side with, without;
@@ -87,7 +79,7 @@ void measure_light_cost(reports::ResultLog& log, bool full) {
       "scene",          "rays without",         "rays with",
       "more rays",      "of which shadow rays", "without [ns/path]",
       "with [ns/path]", "time with / without",  "ns per light sample that asks a shadow ray"};
-  for (const LitScene& scene : kScenes) table.rows.push_back(measure(scene, full ? 21 : 7));
+  for (const NamedScene& scene : kTracedScenes) table.rows.push_back(measure(scene, full ? 21 : 7));
   publish(log, table);
 }
 

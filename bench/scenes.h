@@ -9,6 +9,16 @@
 
 namespace plumbline::bench {
 
+struct NamedScene {
+  const char *name, *title;
+};
+
+/// What rays are measured in: few primitives and many, flat and round.
+inline constexpr NamedScene kTracedScenes[] = {{"cornell", "Cornell box"},
+                                               {"veach", "Veach's plates"},
+                                               {"displaced_sphere", "1M triangles"},
+                                               {"many_spheres", "100k spheres"}};
+
 /// Path of a scene by name, from the scenes with known answers or from bench/scenes.
 /// @throws renderer::InputError for a name that neither has
 std::filesystem::path scene_path(const std::string& name);

@@ -27,14 +27,6 @@ constexpr std::size_t kRays = 1 << 15;
 constexpr std::size_t kFewestRays = 1000;  // a class with fewer is not representative
 constexpr std::array kWidths{1, 8, 16};
 
-struct ShadowScene {
-  const char *name, *title;
-};
-constexpr ShadowScene kScenes[] = {{"cornell", "Cornell box"},
-                                   {"veach", "Veach's plates"},
-                                   {"displaced_sphere", "1M triangles"},
-                                   {"many_spheres", "100k spheres"}};
-
 /// Shadow rays of the light samples at camera hits and at one diffuse bounce. Those of a depth
 /// stand together, pixel after pixel: the order in which packets are filled.
 std::vector<Ray> record_shadow_rays(const Scene& scene) {
@@ -45,7 +37,7 @@ std::vector<Ray> record_shadow_rays(const Scene& scene) {
       renderer::Pcg32 random(1, static_cast<std::uint64_t>(pixel), sample);
       const renderer::Vec2f film = random.next_2d();
       const int x = pixel % width, y = pixel / width;
-      Ray ray = scene.camera().ray(static_cast<float>(x) + film.x, static_cast<float>(y) + film.y);
+      Ray ray = scene.camera().ray(x, y, film);
       for (std::vector<Ray>& of_depth : rays) {
         const auto hit = scene.intersect(ray);
         if (!hit) break;
@@ -116,7 +108,7 @@ const char* judge_claim(const reports::RayCost& cost) {
 }
 
 /// @return of the rays as rendered, by width
-std::vector<reports::RayCost> measure_scene(const ShadowScene& named, reports::ResultLog& log,
+std::vector<reports::RayCost> measure_scene(const NamedScene& named, reports::ResultLog& log,
                                             int repetitions) {
   const Scene scene(load_at_size(named.name, 128, 128));
   const std::vector<Ray> all = record_shadow_rays(scene);
@@ -162,7 +154,7 @@ void measure_shadow_rays(reports::ResultLog& log, bool full) {
     claim.columns.push_back(fmt::format("{}-wide", width));
     claim.columns.emplace_back("claim");
   }
-  for (const ShadowScene& scene : kScenes) {
+  for (const NamedScene& scene : kTracedScenes) {
     const auto costs = measure_scene(scene, log, full ? 31 : 7);
     std::vector<std::string> row{scene.title,
                                  fmt::format("{:.0f} %", 100 * costs[0].occluded_fraction)};
