@@ -44,6 +44,12 @@ PLUMBLINE_KERNEL void sample_light_of_type(const L& shared, Shading& s, Run run)
   sample_lanes(light, s, run);
 }
 
+void store(Shading& s, std::size_t k, const BsdfValue<float>& value, const Vec3f& wi) {
+  s.f.set(k, value.f);
+  s.pdf_bsdf[k] = value.pdf_w;
+  s.cosine[k] = std::abs(wi.z);
+}
+
 template <class B>
 PLUMBLINE_KERNEL void evaluate_type(const B& shared, Shading& s, Run run) {
   const Local<B> bsdf = shared;
@@ -55,9 +61,7 @@ PLUMBLINE_KERNEL void evaluate_type(const B& shared, Shading& s, Run run) {
     } else {
       value = {bsdf.eval(s.wo[k], wi), bsdf.pdf(s.wo[k], wi)};
     }
-    s.f.set(k, value.f);
-    s.pdf_bsdf[k] = value.pdf_w;
-    s.cosine[k] = std::abs(wi.z);
+    store(s, k, value, wi);
   }
 }
 
@@ -96,10 +100,7 @@ void evaluate(const BsdfSet& bsdfs, std::uint32_t bsdf, Shading& s, Run run) {
     } else {
       for (std::size_t k = run.first; k < run.end; ++k) {
         const Vec3f wi = Frame<float>(s.normal[k]).to_local(s.to_light[k]);
-        const BsdfValue<float> value = bsdfs.evaluate(bsdf, s.wo[k], wi);
-        s.f.set(k, value.f);
-        s.pdf_bsdf[k] = value.pdf_w;
-        s.cosine[k] = std::abs(wi.z);
+        store(s, k, bsdfs.evaluate(bsdf, s.wo[k], wi), wi);
       }
     }
   });
