@@ -71,7 +71,14 @@ struct LightExamples<renderer::RectangleLight> {
     const RectangleLight ceiling{{-1, -0.5f, 2}, {2, 0, 0}, {0, 1, 0}, {0, 0, -1}, kRadiance};
     // Scaled, or 1 would do for 1/area.
     const RectangleLight large{{-4, 3, -2}, {8, 0, 0}, {0, 0, 5}, {0, -1, 0}, kRadiance};
-    return {{"RectangleLight/ceiling", ceiling, {0.3f, 0.2f, 0}},
+    RectangleLight two_sided = ceiling;
+    two_sided.two_sided = true;
+    return {{"RectangleLight/two-sided, in front", two_sided, {0.3f, 0.2f, 0}},
+            {"RectangleLight/two-sided, behind", two_sided, {4, 1, 2.5f}},
+            {"RectangleLight/two-sided by solid angle, behind",
+             by_solid_angle(two_sided),
+             {0.3f, 0.2f, 4}},
+            {"RectangleLight/ceiling", ceiling, {0.3f, 0.2f, 0}},
             {"RectangleLight/from the side", ceiling, {4, 1, 1.5f}},
             {"RectangleLight/from behind", ceiling, {0, 0, 3}},
             {"RectangleLight/large", large, {0, 0, 0}},

@@ -117,6 +117,23 @@ TEST(Emitter, EnvironmentMapThatIsNoMapIsRefused) {
   EXPECT_NE(refusal(both).find("no constant and no sun beside it"), std::string::npos);
 }
 
+TEST(Emitter, ATwoSidedRectangleEmitsFromBothSidesAndOthersFromTheFront) {
+  const auto with = [](const std::string& shape, const std::string& two_sided) {
+    return scene_with("<shape type=\"" + shape + R"("><emitter type="area">
+      <rgb name="radiance" value="1"/><boolean name="two_sided" value=")" +
+                      two_sided + "\"/></emitter></shape>");
+  };
+  const renderer::Ray down{{0, 0, 5}, {0, 0, -1}}, up{{0, 0, -5}, {0, 0, 1}};
+  const renderer::Scene both(load_text(with("rectangle", "true")));
+  EXPECT_EQ(both.intersect(down).value().light, 0u);
+  EXPECT_EQ(both.intersect(up).value().light, 0u);
+  const renderer::Scene front(load_text(with("rectangle", "false")));
+  EXPECT_EQ(front.intersect(down).value().light, 0u);
+  EXPECT_EQ(front.intersect(up).value().light, renderer::kNoLight);
+  EXPECT_NE(refusal_of_text(with("disk", "true")).find("only a rectangle can emit from both"),
+            std::string::npos);
+}
+
 TEST(Emitter, SamplingBySolidAngleIsForRectanglesAndMeshes) {
   const auto with = [](const std::string& shape, const std::string& sampling) {
     return scene_with("<shape type=\"" + shape + R"("><emitter type="area">

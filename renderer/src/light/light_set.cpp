@@ -20,7 +20,7 @@ double area_of(const Light& light) {
       light);
 }
 
-/// Emitted power by luminance [W]: π L per area of a surface; of an infinite light what passes
+/// Emitted power by luminance [W]: π L per area of an emitting side; of an infinite light what passes
 /// through the cross-section of the scene, from all directions.
 class PowerOf {
  public:
@@ -42,7 +42,9 @@ class PowerOf {
   }
   template <class Surface>
   double operator()(const Surface& l) const {
-    return pi<double>() * l.template area<double>() * brightness(l.radiance);
+    double sides = 1;
+    if constexpr (requires { l.two_sided; }) sides = l.two_sided ? 2 : 1;
+    return sides * pi<double>() * l.template area<double>() * brightness(l.radiance);
   }
 
  private:

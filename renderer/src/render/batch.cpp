@@ -187,9 +187,7 @@ class Batch final : public BatchTracer {
   }
 
   std::uint32_t light_at_end(std::size_t i) const {
-    if (hits_.bsdf[i] == kNoHit) return scene_.environment();
-    if (hits_.light[i] == kNoLight) return kNoLight;
-    return dot(hits_.normal[i], now_->rays.direction[i]) < 0 ? hits_.light[i] : kNoLight;
+    return hits_.bsdf[i] == kNoHit ? scene_.environment() : hits_.light[i];
   }
 
   void shade(int depth, PathCounters& counters) {

@@ -34,7 +34,7 @@ class DirectLight {
   };
 
   Emission emission(const std::optional<SurfaceHit>& hit, const Vec3f& direction) const {
-    const std::uint32_t light = light_seen(scene_, hit, direction);
+    const std::uint32_t light = light_seen(scene_, hit);
     if (light == kNoLight) return {};
     return {light, renderer::radiance(scene_.lights()[light], direction)};
   }

@@ -87,7 +87,7 @@ class Path {
   /// Emission found by a ray, weighted against the light sample that could have found it.
   Rgbf emission(const std::optional<SurfaceHit>& hit, const Vec3f& direction,
                 const std::optional<Arrival>& arrival) const {
-    const std::uint32_t light = light_seen(scene_, hit, direction);
+    const std::uint32_t light = light_seen(scene_, hit);
     if (light == kNoLight) return {};
     const Rgbf radiance = renderer::radiance(scene_.lights()[light], direction);
     return arrival

@@ -28,11 +28,9 @@ struct Vertex {
   Ray ray_along(const Vec3f& wi) const { return hit.ray_along(frame.to_world(wi)); }
 };
 
-/// The light that a ray ends on, if it shows its emitting side; else kNoLight.
-inline std::uint32_t light_seen(const Scene& scene, const std::optional<SurfaceHit>& hit,
-                                const Vec3f& direction) {
-  if (!hit) return scene.environment();
-  return dot(hit->normal, direction) < 0 ? hit->light : kNoLight;
+/// The light that a ray ends on, or kNoLight.
+inline std::uint32_t light_seen(const Scene& scene, const std::optional<SurfaceHit>& hit) {
+  return hit ? hit->light : scene.environment();
 }
 
 inline bool is_visible(const Scene& scene, const SurfaceHit& hit, const LightSample<float>& light,

@@ -193,7 +193,9 @@ SurfaceHit SceneGeometry::surface_hit(const Ray& ray, const PrimitiveHit& hit) c
       magnitude = plane_magnitude(position, disk.center, normal);
     }
   }
-  return {position, normal, ray_offset(magnitude), primitive.bsdf, primitive.light};
+  const bool front = dot(normal, ray.direction) < 0;
+  return {position, normal, ray_offset(magnitude), primitive.bsdf,
+          front ? primitive.light : primitive.light_behind};
 }
 
 std::optional<SurfaceHit> SceneGeometry::intersect(const Ray& ray) const {

@@ -29,7 +29,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// flipped.
 struct Primitive {
   std::uint32_t bsdf;
-  std::uint32_t light;
+  std::uint32_t light, light_behind;  ///< what emits from the front side, and from the other
   float facing;
   Vec3f normal{};  ///< of what is flat: unit, of the front side
 };

@@ -99,6 +99,7 @@ void read_area_emitter(const Element& element, ShapeDescription& shape) {
   Properties properties = open(element, {"area"});
   shape.radiance = emission(properties, "radiance");
   const std::string sampling = properties.string("sampling", "area");
+  shape.light_two_sided = properties.boolean("two_sided", false);
   properties.finish();
   shape.light_by_solid_angle = sampling == "solid_angle";
   if (sampling != "area" && sampling != "solid_angle") {
@@ -107,6 +108,9 @@ void read_area_emitter(const Element& element, ShapeDescription& shape) {
   if (shape.light_by_solid_angle && !std::holds_alternative<RectangleShape>(shape.geometry) &&
       !std::holds_alternative<MeshShape>(shape.geometry)) {
     properties.fail("sampling", "only a rectangle or an obj can be sampled by solid_angle");
+  }
+  if (shape.light_two_sided && !std::holds_alternative<RectangleShape>(shape.geometry)) {
+    properties.fail("two_sided", "only a rectangle can emit from both sides");
   }
 }
 

@@ -104,7 +104,8 @@ class SceneBuilder {
       const Vec3f v = geometry_.rectangle_corners[first + 3] - o;
       return RectangleLight{o,        u,
                             v,        facing(s.flip_normals) * normalize(cross(u, v)),
-                            radiance, shape_->light_by_solid_angle};
+                            radiance, shape_->light_by_solid_angle,
+                            shape_->light_two_sided};
     });
   }
 
@@ -146,7 +147,8 @@ class SceneBuilder {
     if (shape_->radiance && !is_black(*shape_->radiance)) {
       light = add_light(make_light(rgb_cast<float>(*shape_->radiance)));
     }
-    geometry_.primitives[id].push_back({shape_->bsdf, light, facing(flip_normals)});
+    const std::uint32_t behind = shape_->light_two_sided ? light : kNoLight;
+    geometry_.primitives[id].push_back({shape_->bsdf, light, behind, facing(flip_normals)});
   }
 
   std::uint32_t add_light(const Light& light) {

@@ -7,13 +7,14 @@
 
 namespace plumbline::renderer {
 
-/// One-sided rectangle origin + s·edge_u + t·edge_v, sampled uniformly by area, or by the solid
-/// angle that it subtends.
+/// Rectangle origin + s·edge_u + t·edge_v, sampled uniformly by area, or by the solid angle that it
+/// subtends.
 struct RectangleLight {
   Vec3f origin, edge_u, edge_v;  ///< perpendicular edges [m]
-  Vec3f normal;                  ///< unit, emitting side
+  Vec3f normal;                  ///< unit, of the emitting side
   Rgbf radiance;
   bool by_solid_angle = false;
+  bool two_sided = false;  ///< the other side emits alike
 
   template <class T>
   T area() const {
@@ -22,7 +23,7 @@ struct RectangleLight {
 
   /// @param ref  reference point, world space
   /// @param u    in [0, 1)²
-  /// @return     nullopt where ref lies behind
+  /// @return     nullopt where ref sees no emitting side
   template <class T>
   std::optional<LightSample<T>> sample(const Vec3<T>& ref, const Vec2<T>& u) const {
     if (by_solid_angle) {
@@ -32,15 +33,14 @@ struct RectangleLight {
     }
     const Vec3<T> point =
         vec_cast<T>(origin) + vec_cast<T>(edge_u) * u.x + vec_cast<T>(edge_v) * u.y;
-    return from_area_sample(point - ref, plane_normal<T>(normal, edge_u, edge_v),
-                            T(T(1) / area<T>()), rgb_cast<T>(radiance));
+    return from_area_sample(point - ref, normal_of_side(ref), T(T(1) / area<T>()),
+                            rgb_cast<T>(radiance));
   }
 
-  /// @return pdf_w [1/sr] of `sample(ref, u)`; 0 where wi misses the front
+  /// @return pdf_w [1/sr] of `sample(ref, u)`; 0 where wi misses or meets a dark side
   template <class T>
   T pdf(const Vec3<T>& ref, const Vec3<T>& wi) const {
-    const auto hit =
-        hit_front_of_plane(ref, wi, vec_cast<T>(origin), plane_normal<T>(normal, edge_u, edge_v));
+    const auto hit = hit_front_of_plane(ref, wi, vec_cast<T>(origin), normal_of_side(ref));
     if (!hit) return T(0);
     const Vec3<T> p = ref + wi * hit->distance - vec_cast<T>(origin);
     const Vec3<T> eu = vec_cast<T>(edge_u), ev = vec_cast<T>(edge_v);
@@ -54,11 +54,18 @@ struct RectangleLight {
   }
 
  private:
+  /// Unit normal of the side that emits towards ref, if one does.
+  template <class T>
+  Vec3<T> normal_of_side(const Vec3<T>& ref) const {
+    const Vec3<T> n = plane_normal<T>(normal, edge_u, edge_v);
+    return two_sided && dot(n, ref - vec_cast<T>(origin)) < T(0) ? -n : n;
+  }
+
   template <class T>
   SphericalRectangle<Wide<T>> seen_from(const Vec3<T>& ref) const {
     using W = Wide<T>;
     return {vec_cast<W>(origin) - vec_cast<W>(ref), vec_cast<W>(edge_u), vec_cast<W>(edge_v),
-            plane_normal<W>(normal, edge_u, edge_v)};
+            normal_of_side(vec_cast<W>(ref))};
   }
 
   template <class W>

@@ -57,8 +57,9 @@ struct MeshShape {
 struct ShapeDescription {
   std::variant<SphereShape, RectangleShape, DiskShape, MeshShape> geometry;
   std::uint32_t bsdf = 0;             ///< index into SceneDescription::bsdfs
-  std::optional<Rgbd> radiance;       ///< one-sided emission from the front side [W/(m² sr)]
+  std::optional<Rgbd> radiance;       ///< emission from the front side [W/(m² sr)]
   bool light_by_solid_angle = false;  ///< how a rectangle's or mesh's emission is sampled
+  bool light_two_sided = false;       ///< a rectangle's other side emits alike
 };
 
 /// Pinhole camera as in Mitsuba 3: looks along +z of its own frame, +y up, +x to the *left* of the

@@ -26,7 +26,7 @@ struct SurfaceHit {
   Vec3f normal;         ///< unit, of the front side
   float offset;         ///< distance from the surface at which rays may start [m]
   std::uint32_t bsdf;   ///< index for Scene::bsdf
-  std::uint32_t light;  ///< index into Scene::lights, or kNoLight
+  std::uint32_t light;  ///< index into Scene::lights, or kNoLight where the side hit is dark
 
   /// Where rays that leave towards the side of `w` start.
   Vec3f origin_towards(const Vec3f& w) const {
