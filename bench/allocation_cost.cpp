@@ -22,9 +22,8 @@ double seconds_of_technique(const renderer::Scene& scene, std::size_t technique)
       for (int s = 0; s < kSamplesPerPixel; ++s) {
         const renderer::Vec2f film = random.next_2d();
         const renderer::Ray ray = scene.camera().ray(x, y, film);
-        const float u_light = random.next_1d();
         benchmark::DoNotOptimize(
-            sample_direct_light(scene, ray, technique, u_light, random.next_2d(), counters));
+            sample_direct_light(scene, ray, technique, random.next_2d(), counters));
       }
     }
   }

@@ -41,7 +41,7 @@ std::vector<Ray> record_shadow_rays(const Scene& scene) {
       for (std::vector<Ray>& of_depth : rays) {
         const auto hit = scene.intersect(ray);
         if (!hit) break;
-        const auto light = scene.lights().sample(hit->position, random.next_1d(), random.next_2d());
+        const auto light = scene.lights().sample(hit->position, random.next_2d());
         if (light && dot(hit->normal, light->wi) > 0) {
           const Ray shadow = shadow_ray(*hit, *light);
           if (shadow.t_max > 0) of_depth.push_back(shadow);

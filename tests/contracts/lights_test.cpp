@@ -146,7 +146,9 @@ TEST_P(LightSelection, IsADiscretePairForAnyNumberOfLights) {
     options.seed = check_seed(name);
     const auto pair = verify::make_pair<int>(
         name, verify::Domain::discrete(count),
-        [&](float u) { return static_cast<int>(lights.choose(u).index); },
+        [&](float u) {
+          return static_cast<int>(lights.choose(Vec2<float>{u, 0.5f}).light);
+        },
         [&](int i) { return lights.pmf<float>(static_cast<std::uint32_t>(i)); });
     for (const verify::CheckResult& r : check_pair(pair, options)) expect_verdict(r);
   }
@@ -171,8 +173,8 @@ void expect_solid_angle(const std::string& subject, const renderer::LightSet& li
     verify::Moments moments;
     verify::Random random(options.seed, first);
     for (std::uint64_t n = 0; n < count; ++n) {
-      const auto s = lights.sample(Vec3<double>{}, random.uniform(),
-                                   Vec2<double>{random.uniform(), random.uniform()});
+      const auto s =
+          lights.sample(Vec3<double>{}, Vec2<double>{random.uniform(), random.uniform()});
       moments.add(s && 1 - s->wi.z <= h * (1 + 1e-6) ? 1 / pdf(s->wi) : 0.0);
     }
     return moments;

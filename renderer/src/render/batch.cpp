@@ -1,7 +1,6 @@
 #include "batch.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -17,11 +16,12 @@ class CountingSort {
   /// @param keys  each < kinds
   void sort(const IndexLanes& keys, std::size_t count, std::size_t kinds) {
     ends_.assign(kinds, 0);
-    for (std::size_t i = 0; i < count; ++i) ++ends_[keys[i]];
+    std::uint32_t* __restrict ends = ends_.data();
+    for (std::size_t i = 0; i < count; ++i) ++ends[keys[i]];
     std::uint32_t before = 0;
     for (std::uint32_t& end : ends_) before += std::exchange(end, before);
-    for (std::size_t i = 0; i < count; ++i)
-      order_[ends_[keys[i]]++] = static_cast<std::uint32_t>(i);
+    std::uint32_t* __restrict order = order_.data();
+    for (std::size_t i = 0; i < count; ++i) order[ends[keys[i]]++] = static_cast<std::uint32_t>(i);
   }
 
   /// Where the run of a key starts in order(), and where it ends.
@@ -31,31 +31,47 @@ class CountingSort {
 
  private:
   std::vector<std::uint32_t> ends_;
-  IndexLanes order_;
+  IndexLanes order_{};
 };
 
-template <class T>
-void gather(T* __restrict to, const T* __restrict from, const std::uint32_t* __restrict order,
-            std::size_t count) {
-  for (std::size_t k = 0; k < count; ++k) to[k] = from[order[k]];
-}
+/// Puts values into the order of the vertices that are shaded together.
+class Gather {
+ public:
+  Gather(const IndexLanes& order, std::size_t count) : order_(order), count_(count) {}
 
-template <class T>
-void gather(Lanes<T>& to, const Lanes<T>& from, const IndexLanes& order, std::size_t count) {
-  gather(to.data(), from.data(), order.data(), count);
-}
+  template <class T>
+  void operator()(Lanes<T>& to, const Lanes<T>& from) const {
+    gather(to.data(), from.data(), order_.data(), count_);
+  }
+  void operator()(Vec3Lanes& to, const Vec3Lanes& from) const {
+    (*this)(to.x, from.x);
+    (*this)(to.y, from.y);
+    (*this)(to.z, from.z);
+  }
 
-void gather(Vec3Lanes& to, const Vec3Lanes& from, const IndexLanes& order, std::size_t count) {
-  gather(to.x, from.x, order, count);
-  gather(to.y, from.y, order, count);
-  gather(to.z, from.z, order, count);
-}
+  /// In place.
+  template <class T>
+  void operator()(Lanes<T>& values) const {
+    Lanes<T> sorted;
+    (*this)(sorted, values);
+    std::copy_n(sorted.begin(), count_, values.begin());
+  }
+  void operator()(RgbLanes& values) const {
+    (*this)(values.r);
+    (*this)(values.g);
+    (*this)(values.b);
+  }
 
-void gather(RgbLanes& to, const RgbLanes& from, const IndexLanes& order, std::size_t count) {
-  gather(to.r, from.r, order, count);
-  gather(to.g, from.g, order, count);
-  gather(to.b, from.b, order, count);
-}
+ private:
+  template <class T>
+  static void gather(T* __restrict to, const T* __restrict from,
+                     const std::uint32_t* __restrict order, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) to[k] = from[order[k]];
+  }
+
+  const IndexLanes& order_;
+  std::size_t count_;
+};
 
 /// Where the run of equal values that starts at `first` ends, before `limit`.
 std::size_t run_end(const IndexLanes& values, std::size_t first, std::size_t limit) {
@@ -70,8 +86,17 @@ template <class Source>
 struct RandomLanes {
   Lanes<std::uint64_t> state, constant;
 
-  [[gnu::flatten]] void draw(Run run, Lanes<float>& u, Lanes<float>& v) {
-    for (std::size_t k = run.first; k < run.end; ++k) {
+  /// @param count  sources, whose net and index stand in `state` and `constant`
+  [[gnu::flatten]] void start(std::uint64_t seed, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto started = Source(seed, state[k], constant[k]).state();
+      state[k] = started[0];
+      constant[k] = started[1];
+    }
+  }
+
+  [[gnu::flatten]] void draw(std::size_t count, Lanes<float>& u, Lanes<float>& v) {
+    for (std::size_t k = 0; k < count; ++k) {
       Source source({state[k], constant[k]});
       const Vec2f pair = source.next_2d();
       u[k] = pair.x;
@@ -80,86 +105,92 @@ struct RandomLanes {
     }
   }
 
-  /// One number each for the first `count`; where `wanted` is 0 it is drawn in vain.
-  [[gnu::flatten]] void draw(const IndexLanes& wanted, std::size_t count, Lanes<float>& u) {
+  /// Where `wanted` is 0 the pair is drawn in vain.
+  [[gnu::flatten]] void draw(const IndexLanes& wanted, std::size_t count, Lanes<float>& u,
+                             Lanes<float>& v) {
     for (std::size_t k = 0; k < count; ++k) {
       Source source({state[k], constant[k]});
-      u[k] = source.next_1d();
+      const Vec2f pair = source.next_2d();
+      u[k] = pair.x;
+      v[k] = pair.y;
       state[k] = wanted[k] != 0 ? source.state()[0] : state[k];
     }
   }
-};
 
-template <class Source>
-void gather(RandomLanes<Source>& to, const RandomLanes<Source>& from, const IndexLanes& order,
-            std::size_t count) {
-  gather(to.state, from.state, order, count);
-  gather(to.constant, from.constant, order, count);
-}
+  [[gnu::flatten]] void draw(std::size_t count, Lanes<float>& u) {
+    for (std::size_t k = 0; k < count; ++k) {
+      Source source({state[k], constant[k]});
+      u[k] = source.next_1d();
+      state[k] = source.state()[0];
+    }
+  }
+};
 
 /// @tparam Source  Pcg32 or SobolSampler
 template <class Source>
 class Batch final : public BatchTracer {
  public:
   Batch(const Scene& scene, const PathOptions& options, std::uint64_t seed)
-      : scene_(scene), options_(options), seed_(seed) {}
+      : scene_(scene),
+        options_(options),
+        seed_(seed),
+        bsdf_count_(static_cast<std::uint32_t>(scene.bsdfs().size())) {
+    for (std::uint32_t i = 0; i < bsdf_count_; ++i) {
+      has_density_.push_back(scene.bsdfs().parts(i).density ? 1 : 0);
+    }
+    has_density_.push_back(0);
+    std::fill(s_.pmf.begin(), s_.pmf.end(), 1.0f);  // of the only light
+  }
 
   std::size_t size() const override { return started_; }
 
   void start(int x, int y, std::uint64_t net, std::uint64_t index) override {
     const std::size_t i = started_++;
-    pixel_x_[i] = x;
-    pixel_y_[i] = y;
-    now_->random.state[i] = net;
-    now_->random.constant[i] = index;
+    pixel_x_[i] = static_cast<float>(x);
+    pixel_y_[i] = static_cast<float>(y);
+    random_.state[i] = net;
+    random_.constant[i] = index;
   }
 
   std::span<const Rgbf> trace(PathCounters& counters) override {
     launch();
-    const std::size_t paths = now_->count;
-    for (int depth = 1; within(depth) && now_->count > 0; ++depth) {
-      (depth == 1 ? counters.camera_rays : counters.bounce_rays) += now_->count;
-      scene_.intersect(now_->rays, now_->count, hits_);
+    const std::size_t paths = s_.count;
+    for (int depth = 1; within(depth) && flying_ > 0; ++depth) {
+      (depth == 1 ? counters.camera_rays : counters.bounce_rays) += flying_;
+      scene_.intersect(s_.next, rays_.order(), flying_, hits_);
       add_emission(depth);
       if (!within(depth + 1)) break;
       shade(depth, counters);
-      std::swap(now_, next_);
     }
     return {radiance_.data(), paths};
   }
 
  private:
-  /// Paths on their way to their next vertex, by octant.
-  struct Flight {
-    std::size_t count = 0;
-    RayLanes rays;
-    RgbLanes throughput;
-    Lanes<float> scale, pdf_w;
-    Vec3Lanes ref;  // vertex behind
-    IndexLanes path;
-    RandomLanes<Source> random;
-  };
-
   [[gnu::flatten]] void launch() {
-    Flight& now = *now_;
-    now.count = std::exchange(started_, 0);
+    s_.count = std::exchange(started_, 0);
+    random_.start(seed_, s_.count);
+    random_.draw(s_.count, s_.u, s_.v);
     const Camera camera = scene_.camera();
-    const std::uint64_t seed = seed_;
-    for (std::size_t i = 0; i < now.count; ++i) {
-      Source random(seed, now.random.state[i], now.random.constant[i]);
-      const Ray ray = camera.ray(pixel_x_[i], pixel_y_[i], random.next_2d());
-      now.rays.origin.set(i, ray.origin);
-      now.rays.direction.set(i, ray.direction);
-      now.random.state[i] = random.state()[0];
-      now.random.constant[i] = random.state()[1];
+    const Vec3f origin = camera.origin();
+    for (std::size_t i = 0, end = s_.count; i < end; ++i) {
+      const Vec3f d = camera.direction(pixel_x_[i] + s_.u[i], pixel_y_[i] + s_.v[i]);
+      s_.next.direction.set(i, d);
+      s_.next.origin.set(i, origin);
     }
-    for (std::size_t i = 0; i < now.count; ++i) {
-      now.rays.t_max[i] = std::numeric_limits<float>::infinity();
-      now.throughput.set(i, {1, 1, 1});
-      now.scale[i] = 1;
-      now.path[i] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < s_.count; ++i) {
+      s_.throughput.set(i, {1, 1, 1});
+      s_.scale[i] = 1;
+      s_.path[i] = static_cast<std::uint32_t>(i);
+      s_.next_kind[i] = 0;
       radiance_[i] = {};
     }
+    launch_next_rays();
+  }
+
+  /// Rays that point alike next to each other.
+  void launch_next_rays() {
+    rays_.sort(s_.next_kind, s_.count, kKinds);
+    flying_ = rays_.end(kUnblocked);
   }
 
   bool within(int depth) const { return options_.max_depth < 0 || depth <= options_.max_depth; }
@@ -172,22 +203,23 @@ class Batch final : public BatchTracer {
                                 .n_light = samples_light() ? 1.0f : 0.0f,
                                 .draw_bsdf = samples_bsdf(),
                                 .draw_light = samples_light()};
-    for (std::size_t i = 0; i < now_->count; ++i) {
-      const std::uint32_t light = light_at_end(i);
+    for (std::size_t k = 0; k < flying_; ++k) {
+      const std::uint32_t i = rays_.order()[k];
+      const std::uint32_t light = light_at_end(k);
       if (light == kNoLight) continue;
-      const Vec3f direction = now_->rays.direction[i];
+      const Vec3f direction = s_.next.direction[i];
       Rgbf radiance = renderer::radiance(scene_.lights()[light], direction);
       if (depth > 1) {
-        const float pdf_w = now_->pdf_w[i];
-        const Arrival arrival{techniques, pdf_w == 0, pdf_w, now_->ref[i]};
+        const float pdf_w = s_.pdf_w[i];
+        const Arrival arrival{techniques, pdf_w == 0, pdf_w, s_.position[i]};
         radiance = radiance * arrival_weight(options_, scene_.lights(), arrival, light, direction);
       }
-      radiance_[now_->path[i]] += now_->throughput[i] * radiance;
+      radiance_[s_.path[i]] += s_.throughput[i] * radiance;
     }
   }
 
-  std::uint32_t light_at_end(std::size_t i) const {
-    return hits_.bsdf[i] == kNoHit ? scene_.environment() : hits_.light[i];
+  std::uint32_t light_at_end(std::size_t k) const {
+    return hits_.bsdf[k] == kNoHit ? scene_.environment() : hits_.light[k];
   }
 
   void shade(int depth, PathCounters& counters) {
@@ -199,7 +231,7 @@ class Batch final : public BatchTracer {
       weigh_lights(options_, s_);
       cast_shadows(counters);
     }
-    random_.draw({0, s_.count}, s_.u, s_.v);
+    random_.draw(s_.count, s_.u, s_.v);
     for_each_bsdf([&](std::uint32_t bsdf, Run run) {
       // Nothing left that the continued path could find.
       if (!samples_bsdf() && !scene_.bsdfs().parts(bsdf).atoms && !within(depth + 2)) {
@@ -210,11 +242,11 @@ class Batch final : public BatchTracer {
     });
     apply_samples(s_);
     if (depth >= options_.rr_depth) {
-      std::fill_n(wanted_.begin(), s_.count, 1u);
-      random_.draw(wanted_, s_.count, s_.u);
+      random_.draw(s_.count, s_.u);
       roulette(s_);
     }
-    continue_paths();
+    go_on(s_);
+    launch_next_rays();
   }
 
   template <class Function>
@@ -225,56 +257,62 @@ class Batch final : public BatchTracer {
     }
   }
 
-  /// A path that asks no light draws no number for the choice.
+  /// A path that asks no light draws no number for it.
   void choose_lights() {
-    const LightSet& lights = scene_.lights();
-    std::fill_n(chosen_.begin(), now_->count, 0u);
-    std::fill_n(chosen_pmf_.begin(), now_->count, 1.0f);
-    if (lights.size() < 2 || !samples_light()) return;
-    for (std::size_t i = 0; i < now_->count; ++i) {
-      const std::uint32_t bsdf = hits_.bsdf[i];
-      wanted_[i] = bsdf != kNoHit && scene_.bsdfs().parts(bsdf).density ? 1 : 0;
+    if (!samples_light()) return;
+    const std::uint32_t* has_density = has_density_.data();
+    const std::uint32_t none = bsdf_count_;
+    for (std::size_t k = 0, end = flying_; k < end; ++k) {
+      wanted_[rays_.order()[k]] = has_density[std::min(hits_.bsdf[k], none)];
     }
-    now_->random.draw(wanted_, now_->count, s_.u);
-    for (std::size_t i = 0; i < now_->count; ++i) {
-      const auto choice = lights.choose(s_.u[i]);
-      chosen_[i] = choice.index;
-      chosen_pmf_[i] = choice.pmf;
+    random_.draw(wanted_, s_.count, s_.u, s_.v);
+    const LightSet& lights = scene_.lights();
+    if (lights.size() < 2) return;
+    for (std::size_t i = 0; i < s_.count; ++i) {
+      const auto choice = lights.choose(Vec2f{s_.u[i], s_.v[i]});
+      s_.light[i] = choice.light;
+      s_.pmf[i] = choice.pmf;
+      s_.u[i] = choice.u.x;
     }
   }
 
   /// Sorts by BSDF and light where their pairs are few enough to count, else by BSDF.
   void gather_vertices() {
-    const std::size_t bsdfs = scene_.bsdfs().size(), lights = scene_.lights().size();
-    const std::size_t stride = bsdfs * lights <= kBatch ? std::max<std::size_t>(lights, 1) : 1;
-    const std::size_t escaped = bsdfs * stride;
-    for (std::size_t i = 0; i < now_->count; ++i) {
-      const std::uint32_t bsdf = hits_.bsdf[i];
-      const std::size_t light = stride > 1 ? chosen_[i] : 0;
-      keys_[i] = static_cast<std::uint32_t>(bsdf == kNoHit ? escaped : bsdf * stride + light);
+    const std::uint32_t bsdfs = bsdf_count_;
+    const std::size_t lights = samples_light() ? scene_.lights().size() : 0;
+    const bool by_light = lights > 1 && bsdfs * lights <= kBatch;
+    const auto stride = static_cast<std::uint32_t>(by_light ? lights : 1);
+    for (std::size_t k = 0, end = flying_; k < end; ++k) {
+      const std::uint32_t light = by_light ? s_.light[rays_.order()[k]] : 0;
+      keys_[k] = std::min(hits_.bsdf[k], bsdfs) * stride + light;
     }
-    sort_.sort(keys_, now_->count, escaped + 1);
-    const std::size_t count = sort_.begin(escaped);
-    const IndexLanes& order = sort_.order();
-    s_.count = count;
-    gather(s_.bsdf, hits_.bsdf, order, count);
-    gather(s_.light, chosen_, order, count);
-    gather(s_.pmf, chosen_pmf_, order, count);
-    gather(s_.position, hits_.position, order, count);
-    gather(s_.normal, hits_.normal, order, count);
-    gather(s_.offset, hits_.offset, order, count);
-    gather(s_.wo, now_->rays.direction, order, count);
-    gather(s_.throughput, now_->throughput, order, count);
-    gather(s_.scale, now_->scale, order, count);
-    gather(s_.path, now_->path, order, count);
-    gather(random_, now_->random, order, count);
+    vertices_.sort(keys_, flying_, (bsdfs + 1) * stride);
+    s_.count = vertices_.begin(bsdfs * stride);
+    const Gather gather_hits(vertices_.order(), s_.count);
+    gather_hits(s_.bsdf, hits_.bsdf);
+    gather_hits(s_.position, hits_.position);
+    gather_hits(s_.normal, hits_.normal);
+    gather_hits(s_.offset, hits_.offset);
+    gather_hits(paths_, rays_.order());
+    const Gather gather(paths_, s_.count);
+    gather(s_.wo, s_.next.direction);
+    gather(s_.throughput);
+    gather(s_.scale);
+    gather(s_.path);
+    gather(random_.state);
+    gather(random_.constant);
+    if (!samples_light()) return;
+    gather(s_.u);
+    gather(s_.v);
+    if (lights < 2) return;
+    gather(s_.light);
+    gather(s_.pmf);
   }
 
   /// A light sample for each of the vertices of one BSDF.
   void sample_lights(std::uint32_t bsdf, Run run, PathCounters& counters) {
     const LightSet& lights = scene_.lights();
     const bool density = scene_.bsdfs().parts(bsdf).density;
-    if (density) random_.draw(run, s_.u, s_.v);
     if (!density || lights.empty()) {
       for (std::size_t k = run.first; k < run.end; ++k) s_.pdf_light[k] = s_.mass[k] = 0;
       if (density) counters.rejected += run.end - run.first;
@@ -291,52 +329,33 @@ class Batch final : public BatchTracer {
   }
 
   void cast_shadows(PathCounters& counters) {
-    sort_.sort(s_.shadow_kind, s_.count, kKinds);
-    const IndexLanes& order = sort_.order();
-    const std::size_t count = sort_.begin(kUnblocked), lit = sort_.end(kUnblocked);
+    shadows_.sort(s_.shadow_kind, s_.count, kKinds);
+    const IndexLanes& order = shadows_.order();
+    const std::size_t count = shadows_.begin(kUnblocked), lit = shadows_.end(kUnblocked);
     counters.shadow_rays += lit;
-    gather(shadow_.origin, s_.shadow_origin, order, count);
-    gather(shadow_.direction, s_.to_light, order, count);
-    gather(shadow_.t_max, s_.shadow_t_max, order, count);
-    scene_.occluded(shadow_, count, blocked_);
-    for (std::size_t i = 0; i < lit; ++i) {
-      if (i < count && blocked_[i] != 0) continue;
-      radiance_[s_.path[order[i]]] += s_.contribution[order[i]];
+    scene_.occluded(s_.shadow, s_.shadow_t_max, order, count, blocked_);
+    for (std::size_t k = 0; k < lit; ++k) {
+      const std::uint32_t i = order[k];
+      if (k < count && blocked_[k] != 0) continue;
+      radiance_[s_.path[i]] += s_.contribution[i];
     }
-  }
-
-  void continue_paths() {
-    go_on(s_);
-    sort_.sort(s_.next_kind, s_.count, kKinds);
-    const IndexLanes& order = sort_.order();
-    const std::size_t count = sort_.end(kUnblocked);
-    next_->count = count;
-    gather(next_->rays.origin, s_.next_origin, order, count);
-    gather(next_->rays.direction, s_.next_direction, order, count);
-    std::fill_n(next_->rays.t_max.begin(), count, std::numeric_limits<float>::infinity());
-    gather(next_->throughput, s_.throughput, order, count);
-    gather(next_->scale, s_.scale, order, count);
-    gather(next_->pdf_w, s_.pdf_w, order, count);
-    gather(next_->ref, s_.position, order, count);
-    gather(next_->path, s_.path, order, count);
-    gather(next_->random, random_, order, count);
   }
 
   const Scene& scene_;
   const PathOptions& options_;
   std::uint64_t seed_;
+  std::uint32_t bsdf_count_;
+  std::vector<std::uint32_t> has_density_;  // of each BSDF, 0 or 1; 0 after the last one
   std::size_t started_ = 0;
-  Lanes<int> pixel_x_, pixel_y_;
+  Lanes<float> pixel_x_, pixel_y_;
   Lanes<Rgbf> radiance_;
-  Flight flights_[2];
-  Flight *now_ = &flights_[0], *next_ = &flights_[1];
-  HitLanes hits_;
-  IndexLanes chosen_, wanted_, keys_;
-  Lanes<float> chosen_pmf_;
-  CountingSort sort_;
-  Shading s_;
-  RandomLanes<Source> random_;  // of the vertices in s_
-  RayLanes shadow_;
+  Shading s_{};
+  RandomLanes<Source> random_;  // of the paths in s_
+  CountingSort rays_;           // by octant, of the indices of those that go on
+  std::size_t flying_ = 0;      // how many they are
+  HitLanes hits_{};
+  IndexLanes wanted_, keys_, paths_;
+  CountingSort vertices_, shadows_;
   Lanes<std::uint8_t> blocked_;
 };
 

@@ -22,7 +22,7 @@ void sample_lanes(const L& light, Shading& s, Run run) {
     const auto sample = light.sample(s.position[k], Vec2f{s.u[k], s.v[k]});
     const bool found = sample.has_value();
     const LightSample<float> l = found ? *sample : LightSample<float>{};
-    s.to_light.set(k, l.wi);
+    s.shadow.direction.set(k, l.wi);
     s.distance[k] = l.distance;
     s.cos_light[k] = l.cos_light;
     s.pdf_light[k] = l.pdf_w * s.pmf[k];
@@ -54,7 +54,7 @@ template <class B>
 PLUMBLINE_KERNEL void evaluate_type(const B& shared, Shading& s, Run run) {
   const Local<B> bsdf = shared;
   for (std::size_t k = run.first; k < run.end; ++k) {
-    const Vec3f wi = Frame<float>(s.normal[k]).to_local(s.to_light[k]);
+    const Vec3f wi = Frame<float>(s.normal[k]).to_local(s.shadow.direction[k]);
     BsdfValue<float> value;
     if constexpr (requires { bsdf.evaluate(wi, wi); }) {
       value = bsdf.evaluate(s.wo[k], wi);
@@ -99,7 +99,7 @@ void evaluate(const BsdfSet& bsdfs, std::uint32_t bsdf, Shading& s, Run run) {
       evaluate_type(b, s, run);
     } else {
       for (std::size_t k = run.first; k < run.end; ++k) {
-        const Vec3f wi = Frame<float>(s.normal[k]).to_local(s.to_light[k]);
+        const Vec3f wi = Frame<float>(s.normal[k]).to_local(s.shadow.direction[k]);
         store(s, k, bsdfs.evaluate(bsdf, s.wo[k], wi), wi);
       }
     }
@@ -139,8 +139,9 @@ PLUMBLINE_KERNEL void weigh(Shading& s, float n_bsdf, const Weight& weight) {
 PLUMBLINE_KERNEL void aim_shadow_rays(Shading& s) {
   for (std::size_t k = 0; k < s.count; ++k) {
     const SurfaceHit hit{s.position[k], s.normal[k], s.offset[k], 0, 0};
-    const Ray ray = shadow_ray(hit, {s.to_light[k], s.distance[k], s.cos_light[k], {}, 0, 0});
-    s.shadow_origin.set(k, ray.origin);
+    const Ray ray =
+        shadow_ray(hit, {s.shadow.direction[k], s.distance[k], s.cos_light[k], {}, 0, 0});
+    s.shadow.origin.set(k, ray.origin);
     s.shadow_t_max[k] = ray.t_max;
   }
 }
@@ -148,7 +149,9 @@ PLUMBLINE_KERNEL void aim_shadow_rays(Shading& s) {
 void choose_kinds(Shading& s) {
   for (std::size_t k = 0; k < s.count; ++k) {
     const bool lit = (s.pdf_light[k] > 0 || s.mass[k] > 0) && !is_black(s.f[k]);
-    s.shadow_kind[k] = !lit ? kDropped : s.shadow_t_max[k] > 0 ? octant(s.to_light[k]) : kUnblocked;
+    s.shadow_kind[k] = !lit                    ? kDropped
+                       : s.shadow_t_max[k] > 0 ? octant(s.shadow.direction[k])
+                                               : kUnblocked;
   }
 }
 
@@ -188,8 +191,8 @@ PLUMBLINE_KERNEL void go_on(Shading& s) {
   for (std::size_t k = 0; k < s.count; ++k) {
     const SurfaceHit hit{s.position[k], s.normal[k], s.offset[k], 0, 0};
     const Vec3f direction = Frame<float>(s.normal[k]).to_world(s.wi[k]);
-    s.next_direction.set(k, direction);
-    s.next_origin.set(k, hit.origin_towards(direction));
+    s.next.direction.set(k, direction);
+    s.next.origin.set(k, hit.origin_towards(direction));
     s.next_kind[k] = is_black(s.throughput[k]) ? kDropped : octant(direction);
   }
 }

@@ -9,8 +9,6 @@
 /// The loops over many vertices that the batched backend spends its time in.
 namespace plumbline::renderer {
 
-using IndexLanes = Lanes<std::uint32_t>;
-
 /// Vertices side by side, those of one BSDF and one light together.
 struct Shading {
   std::size_t count = 0;
@@ -21,20 +19,18 @@ struct Shading {
   Lanes<float> scale;  // what refractions alone made of the throughput
   Lanes<float> u, v;   // uniform numbers of the sample that is made next
   Lanes<float> pmf;    // of the light
-  Vec3Lanes to_light;  // world
+  RayLanes shadow;     // its direction is world, towards the light
   Lanes<float> distance, cos_light, pdf_light, mass;  // both 0: no light sample
   RgbLanes radiance, f;
   Lanes<float> cosine, pdf_bsdf;  // of to_light
   RgbLanes contribution;
-  Vec3Lanes shadow_origin;  // the direction is to_light
   Lanes<float> shadow_t_max;
   IndexLanes shadow_kind;   // octant, or one of the two below
   Vec3Lanes wi;             // local
   RgbLanes weight;          // of the BSDF sample; black: none
   Lanes<float> pdf_w;       // 0 for an atom
   Lanes<float> refraction;  // radiance_scale of the sample
-  Vec3Lanes next_direction;
-  Vec3Lanes next_origin;
+  RayLanes next;
   IndexLanes next_kind;  // octant, or kDropped
 };
 
@@ -46,11 +42,11 @@ struct Run {
 };
 
 void to_local(Shading& s);
-/// Fills to_light … radiance from u, v and pmf.
+/// Fills shadow.direction and distance … radiance from u, v and pmf.
 void sample_light(const Light& light, Shading& s, Run run);
 /// Fills f, cosine and pdf_bsdf.
 void evaluate(const BsdfSet& bsdfs, std::uint32_t bsdf, Shading& s, Run run);
-/// Fills contribution, shadow_origin, shadow_t_max and shadow_kind.
+/// Fills contribution, shadow.origin, shadow_t_max and shadow_kind.
 void weigh_lights(const PathOptions& options, Shading& s);
 /// Fills wi, weight, pdf_w and refraction from u and v. @return rejected samples
 std::size_t sample_bsdf(const BsdfSet& bsdfs, std::uint32_t bsdf, Shading& s, Run run);
@@ -58,7 +54,7 @@ std::size_t sample_bsdf(const BsdfSet& bsdfs, std::uint32_t bsdf, Shading& s, Ru
 void apply_samples(Shading& s);
 /// Lets paths die at random; `s.u` holds the numbers.
 void roulette(Shading& s);
-/// Fills next_origin, next_direction and next_kind.
+/// Fills next and next_kind.
 void go_on(Shading& s);
 
 }  // namespace plumbline::renderer

@@ -12,7 +12,7 @@ class DirectLight {
  public:
   DirectLight(const Scene& scene, PathCounters& counters) : scene_(scene), counters_(counters) {}
 
-  DirectSample sample(const Ray& ray, std::size_t technique, float u_light, const Vec2f& u) {
+  DirectSample sample(const Ray& ray, std::size_t technique, const Vec2f& u) {
     ++counters_.camera_rays;
     const auto hit = scene_.intersect(ray);
     DirectSample result;
@@ -22,7 +22,7 @@ class DirectLight {
     if (technique == kBsdfTechnique) {
       sample_bsdf(vertex, u, result);
     } else if (vertex.bsdf.parts().density) {
-      sample_light(vertex, u_light, u, result);
+      sample_light(vertex, u, result);
     }
     return result;
   }
@@ -53,8 +53,8 @@ class DirectLight {
     result.other_pdf = scene_.lights().pdf(found.light, vertex.hit.position, ray.direction);
   }
 
-  void sample_light(const Vertex& vertex, float u_light, const Vec2f& u, DirectSample& result) {
-    const auto light = scene_.lights().sample(vertex.hit.position, u_light, u);
+  void sample_light(const Vertex& vertex, const Vec2f& u, DirectSample& result) {
+    const auto light = scene_.lights().sample(vertex.hit.position, u);
     if (!light) {
       ++counters_.rejected;
       return;
@@ -75,8 +75,8 @@ class DirectLight {
 }  // namespace
 
 DirectSample sample_direct_light(const Scene& scene, const Ray& ray, std::size_t technique,
-                                 float u_light, const Vec2f& u, PathCounters& counters) {
-  return DirectLight(scene, counters).sample(ray, technique, u_light, u);
+                                 const Vec2f& u, PathCounters& counters) {
+  return DirectLight(scene, counters).sample(ray, technique, u);
 }
 
 }  // namespace plumbline::renderer

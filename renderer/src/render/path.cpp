@@ -116,7 +116,7 @@ class Path {
 
   /// Direct light by one point on a light.
   Rgbf light_estimate(const Vertex& vertex, const Techniques& t) {
-    const auto light = sample_light(vertex.hit.position);
+    const auto light = scene_.lights().sample(vertex.hit.position, random_.next_2d());
     if (!light) {
       ++counters_.rejected;
       return {};
@@ -130,11 +130,6 @@ class Path {
     const float w = technique_weight(options_, t.n_light, light->pdf_w, t.n_bsdf,
                                      t.n_bsdf > 0 ? bsdf.pdf_w : 0.0f);
     return bsdf.f * light->radiance * (std::abs(wi.z) * w / light->pdf_w);
-  }
-
-  std::optional<LightSample<float>> sample_light(const Vec3f& ref) {
-    const float u_light = scene_.lights().size() > 1 ? random_.next_1d() : 0.0f;
-    return scene_.lights().sample(ref, u_light, random_.next_2d());
   }
 
   /// Direct light by one direction uniform on the hemisphere that wo is in, or on the sphere where

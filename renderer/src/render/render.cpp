@@ -208,9 +208,8 @@ class Renderer {
     const auto draw = [&](std::size_t technique) {
       const Vec2f jitter = random.next_2d();
       const Ray ray = scene_.camera().ray(x, y, jitter);
-      const float u_light = random.next_1d();
       const DirectSample sample =
-          sample_direct_light(scene_, ray, technique, u_light, random.next_2d(), counters);
+          sample_direct_light(scene_, ray, technique, random.next_2d(), counters);
       emission = sample.emission;
       return TechniqueSample<Rgbd>{rgb_cast<double>(sample.value), static_cast<double>(sample.pdf),
                                    static_cast<double>(sample.other_pdf)};

@@ -24,6 +24,7 @@ struct Disk {
 };
 
 using Triangle = std::array<std::uint32_t, 3>;
+using Rectangle = std::array<std::uint32_t, 4>;
 
 /// What a primitive belongs to. `facing` is +1 where the front side is Embree's own, −1 where
 /// flipped.
@@ -32,6 +33,11 @@ struct Primitive {
   std::uint32_t light, light_behind;  ///< what emits from the front side, and from the other
   float facing;
   Vec3f normal{};  ///< of what is flat: unit, of the front side
+
+  /// What emits from the side that a ray with this direction hits.
+  std::uint32_t light_towards(const Vec3f& front, const Vec3f& direction) const {
+    return dot(front, direction) < 0 ? light : light_behind;
+  }
 };
 
 /// Embree geometry ids, in the order of attachment.
@@ -43,15 +49,20 @@ struct PrimitiveHit {
   float u, v, t;
 };
 
+/// Three corners of something flat: u runs from the first to the second, v from the first to the
+/// third.
+struct Corners {
+  Vec3f v0, v1, v2;
+};
+
 /// Buffers that Embree reads in place, what belongs to each primitive, and the rays' way in.
 class SceneGeometry {
  public:
   std::vector<Sphere> spheres;
-  std::vector<Vec3f> rectangle_corners;  ///< four per rectangle: o, o + u, o + u + v, o + v
-  std::vector<std::uint32_t> rectangle_indices;
   std::vector<Disk> disks;
   std::vector<Vec3f> disk_normals;
-  std::vector<Vec3f> mesh_vertices;
+  std::vector<Vec3f> vertices;        ///< of rectangles and triangles
+  std::vector<Rectangle> rectangles;  ///< indices of o, o + u, o + u + v, o + v
   std::vector<Triangle> triangles;
   std::array<std::vector<Primitive>, kGeometryKinds> primitives;
 
@@ -66,8 +77,10 @@ class SceneGeometry {
 
   std::optional<SurfaceHit> intersect(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
-  void intersect(const RayLanes& rays, std::size_t count, HitLanes& hits) const;
-  void occluded(const RayLanes& rays, std::size_t count, Lanes<std::uint8_t>& blocked) const;
+  void intersect(const RayLanes& rays, const IndexLanes& order, std::size_t count,
+                 HitLanes& hits) const;
+  void occluded(const RayLanes& rays, const Lanes<float>& t_max, const IndexLanes& order,
+                std::size_t count, Lanes<std::uint8_t>& blocked) const;
   RTCScene embree_scene() const { return scene_; }
 
  private:
@@ -76,8 +89,10 @@ class SceneGeometry {
               const std::function<void(RTCGeometry)>& more);
   void check_device() const;
   void find_normals();
-  std::array<Vec3f, 3> corners(unsigned kind, std::size_t index) const;
+  Corners corners(unsigned kind, std::size_t index) const;
   SurfaceHit surface_hit(const Ray& ray, const PrimitiveHit& hit) const;
+  void surface_hits(const RTCRayHit16& packet, const RayLanes& rays, const std::uint32_t* order,
+                    std::size_t first, std::size_t count, HitLanes& hits) const;
 
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;

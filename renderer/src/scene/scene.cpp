@@ -91,20 +91,23 @@ class SceneBuilder {
   }
 
   void operator()(const RectangleShape& s) {
-    const auto first = static_cast<std::uint32_t>(geometry_.rectangle_corners.size());
+    const auto first = static_cast<std::uint32_t>(geometry_.vertices.size());
     for (const Vec3d& corner :
          {s.origin, s.origin + s.edge_u, s.origin + s.edge_u + s.edge_v, s.origin + s.edge_v}) {
-      geometry_.rectangle_corners.push_back(local(corner));
+      geometry_.vertices.push_back(local(corner));
     }
-    for (std::uint32_t i = 0; i < 4; ++i) geometry_.rectangle_indices.push_back(first + i);
+    geometry_.rectangles.push_back({first, first + 1, first + 2, first + 3});
     add_primitive(kRectangles, s.flip_normals, [&](const Rgbf& radiance) {
       // From the rounded corners: the light must be the surface that rays hit.
-      const Vec3f o = geometry_.rectangle_corners[first];
-      const Vec3f u = geometry_.rectangle_corners[first + 1] - o;
-      const Vec3f v = geometry_.rectangle_corners[first + 3] - o;
-      return RectangleLight{o,        u,
-                            v,        facing(s.flip_normals) * normalize(cross(u, v)),
-                            radiance, shape_->light_by_solid_angle,
+      const Vec3f o = geometry_.vertices[first];
+      const Vec3f u = geometry_.vertices[first + 1] - o;
+      const Vec3f v = geometry_.vertices[first + 3] - o;
+      return RectangleLight{o,
+                            u,
+                            v,
+                            facing(s.flip_normals) * normalize(cross(u, v)),
+                            radiance,
+                            shape_->light_by_solid_angle,
                             shape_->light_two_sided};
     });
   }
@@ -120,15 +123,15 @@ class SceneBuilder {
   }
 
   void operator()(const MeshShape& s) {
-    const auto first = static_cast<std::uint32_t>(geometry_.mesh_vertices.size());
-    for (const Vec3d& v : s.vertices) geometry_.mesh_vertices.push_back(local(v));
+    const auto first = static_cast<std::uint32_t>(geometry_.vertices.size());
+    for (const Vec3d& v : s.vertices) geometry_.vertices.push_back(local(v));
     for (const Triangle& t : s.triangles) {
       const Triangle moved{t[0] + first, t[1] + first, t[2] + first};
       geometry_.triangles.push_back(moved);
       add_primitive(kTriangles, s.flip_normals, [&](const Rgbf& radiance) {
-        const Vec3f v0 = geometry_.mesh_vertices[moved[0]];
-        const Vec3f e1 = geometry_.mesh_vertices[moved[1]] - v0;
-        const Vec3f e2 = geometry_.mesh_vertices[moved[2]] - v0;
+        const Vec3f v0 = geometry_.vertices[moved[0]];
+        const Vec3f e1 = geometry_.vertices[moved[1]] - v0;
+        const Vec3f e2 = geometry_.vertices[moved[2]] - v0;
         return TriangleLight{v0,       e1,
                              e2,       facing(s.flip_normals) * normalize(cross(e1, e2)),
                              radiance, shape_->light_by_solid_angle};
@@ -192,12 +195,14 @@ std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
 
 bool Scene::occluded(const Ray& ray) const { return geometry_->occluded(ray); }
 
-void Scene::intersect(const RayLanes& rays, std::size_t count, HitLanes& hits) const {
-  geometry_->intersect(rays, count, hits);
+void Scene::intersect(const RayLanes& rays, const IndexLanes& order, std::size_t count,
+                      HitLanes& hits) const {
+  geometry_->intersect(rays, order, count, hits);
 }
 
-void Scene::occluded(const RayLanes& rays, std::size_t count, Lanes<std::uint8_t>& blocked) const {
-  geometry_->occluded(rays, count, blocked);
+void Scene::occluded(const RayLanes& rays, const Lanes<float>& t_max, const IndexLanes& order,
+                     std::size_t count, Lanes<std::uint8_t>& blocked) const {
+  geometry_->occluded(rays, t_max, order, count, blocked);
 }
 
 RTCSceneTy* Scene::embree_scene() const { return geometry_->embree_scene(); }

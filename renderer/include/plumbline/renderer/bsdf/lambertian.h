@@ -30,9 +30,8 @@ struct Lambertian {
   /// @return   wi cosine-distributed; nullopt for wo at or below the horizon, or wi on it
   template <class T>
   std::optional<BsdfSample<T>> sample(const Vec3<T>& wo, const Vec2<T>& u) const {
-    if (!(wo.z > T(0))) return std::nullopt;
     const Vec3<T> wi = square_to_cosine_hemisphere(u);
-    if (!(wi.z > T(0))) return std::nullopt;
+    if (!(wo.z > T(0) && wi.z > T(0))) return std::nullopt;
     // f cosθ / pdf_w = (albedo/π) cosθ / (cosθ/π): the cosine never enters, so nothing is lost at
     // grazing.
     return density_sample(wi, rgb_cast<T>(albedo), pdf(wo, wi));

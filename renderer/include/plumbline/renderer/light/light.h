@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -18,6 +21,8 @@
 #include <plumbline/renderer/light/sphere_light.h>
 #include <plumbline/renderer/light/sun_and_sky.h>
 #include <plumbline/renderer/light/triangle_light.h>
+#include <plumbline/renderer/sampling/discrete.h>
+#include <plumbline/renderer/sampling/pcg32.h>
 
 namespace plumbline::renderer {
 
@@ -95,10 +100,22 @@ class LightSet {
   std::size_t size() const { return lights_.size(); }
   const Light& operator[](std::uint32_t i) const { return lights_[i]; }
 
-  /// @param u  in [0, 1)
+  /// A light, and where on it.
   template <class T>
-  DiscreteDistribution::Choice<T> choose(const T& u) const {
-    return selection_.sample(u);
+  struct Choice {
+    std::uint32_t light;
+    T pmf;      ///< [1]
+    Vec2<T> u;  ///< uniform in [0, 1)², independent of the choice
+  };
+
+  /// Chooses by the first coordinate and stretches what the choice leaves of it over [0, 1) again:
+  /// of points that form a net, those that fall to one light form a net on it.
+  /// @param u  in [0, 1)²; not for an empty set
+  template <class T>
+  Choice<T> choose(const Vec2<T>& u) const {
+    if (size() < 2) return {0, T(1), u};
+    const auto choice = selection_.sample(u.x);
+    return {choice.index, choice.pmf, {with_digits_below(choice, u), u.y}};
   }
 
   /// Probability [1] that `choose` and `sample` choose a light.
@@ -109,15 +126,12 @@ class LightSet {
 
   /// Chooses a light, then a direction towards it. `pdf_w` or `mass` of the result includes the
   /// choice.
-  /// @param u_light  in [0, 1), a number of its own: what a choice among 1,000 lights leaves of one
-  ///                 number is too coarse to aim with
-  /// @param u        in [0, 1)²
+  /// @param u  in [0, 1)²
   template <class T>
-  std::optional<LightSample<T>> sample(const Vec3<T>& ref, const T& u_light,
-                                       const Vec2<T>& u) const {
+  std::optional<LightSample<T>> sample(const Vec3<T>& ref, const Vec2<T>& u) const {
     if (empty()) return std::nullopt;
-    const auto choice = choose(u_light);
-    auto result = renderer::sample(lights_[choice.index], ref, u);
+    const Choice<T> choice = choose(u);
+    auto result = renderer::sample(lights_[choice.light], ref, choice.u);
     if (!result) return std::nullopt;
     result->pdf_w = result->pdf_w * choice.pmf;
     result->mass = result->mass * choice.pmf;
@@ -136,6 +150,20 @@ class LightSet {
   }
 
  private:
+  /// The first coordinate after the choice. In float it had 24 digits, of which a choice among
+  /// 1,000 lights leaves 14, too coarse to aim with: more follow from a hash of the point.
+  template <class T>
+  static T with_digits_below(const DiscreteDistribution::Choice<T>& choice, const Vec2<T>& u) {
+    if constexpr (std::is_same_v<T, float>) {
+      const auto x = std::bit_cast<std::uint32_t>(u.x), y = std::bit_cast<std::uint32_t>(u.y);
+      const float digits =
+          to_unit(static_cast<std::uint32_t>(mix_bits(std::uint64_t{x} << 32 | y)));
+      return std::min(choice.u + 0x1p-24f * digits / choice.pmf, 1 - 0x1p-24f);
+    } else {
+      return choice.u;
+    }
+  }
+
   std::vector<Light> lights_;
   DiscreteDistribution selection_;
 };

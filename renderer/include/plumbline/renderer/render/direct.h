@@ -19,10 +19,9 @@ struct DirectSample {
 
 /// @param ray        from Camera::ray
 /// @param technique  kBsdfTechnique: a direction from the BSDF; kLightTechnique: a point on a light
-/// @param u_light    in [0, 1): chooses the light, where the technique needs one
 /// @param u          in [0, 1)²
 /// @return           value averages to the reflected light that the technique can find
 DirectSample sample_direct_light(const Scene& scene, const Ray& ray, std::size_t technique,
-                                 float u_light, const Vec2f& u, PathCounters& counters);
+                                 const Vec2f& u, PathCounters& counters);
 
 }  // namespace plumbline::renderer

@@ -27,12 +27,17 @@ class Camera {
   int width() const { return width_; }
   int height() const { return height_; }
 
+  const Vec3f& origin() const { return origin_; }
+
   /// @param x, y  film position in pixels, (0, 0) the upper left corner of the image
-  Ray ray(float x, float y) const {
+  /// @return      unit
+  Vec3f direction(float x, float y) const {
     const float from_center_x = x - 0.5f * static_cast<float>(width_);
     const float from_center_y = y - 0.5f * static_cast<float>(height_);
-    return {origin_, normalize(forward_ + right_ * from_center_x + down_ * from_center_y)};
+    return normalize(forward_ + right_ * from_center_x + down_ * from_center_y);
   }
+
+  Ray ray(float x, float y) const { return {origin_, direction(x, y)}; }
 
   /// @param offset  in the pixel, [0, 1)²
   Ray ray(int pixel_x, int pixel_y, const Vec2f& offset) const {

@@ -13,11 +13,12 @@ namespace plumbline::renderer {
 /// their state stays in a core's cache. A multiple of the packets' width.
 inline constexpr std::size_t kBatch = 2048;
 
-template <class T>
-struct alignas(64) Lanes : std::array<T, kBatch> {};
+template <class T, std::size_t N = kBatch>
+struct alignas(64) Lanes : std::array<T, N> {};
 
-struct Vec3Lanes {
-  Lanes<float> x, y, z;
+template <std::size_t N = kBatch>
+struct Vec3LanesOf {
+  Lanes<float, N> x, y, z;
 
   Vec3f operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
   void set(std::size_t i, const Vec3f& v) {
@@ -26,6 +27,8 @@ struct Vec3Lanes {
     z[i] = v.z;
   }
 };
+
+using Vec3Lanes = Vec3LanesOf<>;
 
 struct RgbLanes {
   Lanes<float> r, g, b;
@@ -38,19 +41,20 @@ struct RgbLanes {
   }
 };
 
+using IndexLanes = Lanes<std::uint32_t>;
+
 struct RayLanes {
   Vec3Lanes origin, direction;
-  Lanes<float> t_max;
 };
 
 inline constexpr std::uint32_t kNoHit = 0xffffffffu;
 
-/// What Scene::intersect finds, ray by ray; `bsdf` is kNoHit where a ray escapes, and the rest then
-/// left as it was.
+/// What Scene::intersect finds, in the order of tracing; `bsdf` is kNoHit where a ray escapes, and
+/// the rest then without a meaning.
 struct HitLanes {
   Vec3Lanes position, normal;
   Lanes<float> offset;
-  Lanes<std::uint32_t> bsdf, light;
+  IndexLanes bsdf, light;
 };
 
 /// Order in which rays walk the tree alike: the signs of their direction, in [0, 8).
