@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <plumbline/renderer/render/render.h>
+#include "backend_speed.h"
 #include "clock.h"
 #include "publish.h"
 #include "ray_calls.h"
@@ -99,8 +100,8 @@ void measure_ray_replay(reports::ResultLog& log, bool full) {
   table.title = "Share of Embree in a render";
   table.caption =
       "All rays of a render (mis, Sobol), asked again of Embree alone in the same order and "
-      "widths: "
-      "time of the replay over that of the render, medians of interleaved repetitions with 95 % "
+      "widths: time of the replay over that of the render, medians of interleaved repetitions with "
+      "95 % "
       "intervals, CPU time on one thread. One by one: the same with one ray per call; above 1 the "
       "packets of the render beat it.";
   table.columns = {"scene",
@@ -126,6 +127,7 @@ void measure_ray_replay(reports::ResultLog& log, bool full) {
     }
   }
   publish(log, table);
+  measure_backend_speed(log, full);
 }
 
 }  // namespace plumbline::bench
