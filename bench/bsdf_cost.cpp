@@ -89,6 +89,9 @@ void add(const std::string& name, const B& bsdf) {
     benchmark::DoNotOptimize(bsdf.evaluate(wo, wi));
   };
   add_one("sample", sample);
+  add_one("pdf", [bsdf](const Vec3f& wo, const Vec3f& wi, const Vec2f&) {
+    benchmark::DoNotOptimize(bsdf.pdf(wo, wi));
+  });
   add_one("eval_pdf", eval_pdf);
   add_one("sample_eval_pdf", [sample, eval_pdf](const Vec3f& wo, const Vec3f& wi, const Vec2f& u) {
     sample(wo, wi, u);

@@ -84,6 +84,13 @@ void irradiance(benchmark::State& state, const Light& light, float distance) {
   state.counters["variance"] = squares * count / (sum * sum) - 1;
 }
 
+/// A map of the square.
+template <class Function>
+void warp(benchmark::State& state, const Function& function) {
+  Pcg32 random(1, 0, 0);
+  for (auto _ : state) benchmark::DoNotOptimize(function(random.next_2d()));
+}
+
 /// A choice among `count` lights of different power.
 void light_selection(benchmark::State& state, std::uint32_t count) {
   Pcg32 random(1, 0, 0);
@@ -126,6 +133,12 @@ BENCHMARK_CAPTURE(light_pdf, environment_map, kMap);
 BENCHMARK_CAPTURE(light_sample, sun_and_sky, kSun);
 BENCHMARK_CAPTURE(light_pdf, sun_and_sky, kSun);
 BENCHMARK_CAPTURE(light_sample, point, kPoint);
+BENCHMARK_CAPTURE(light_pdf, environment, kEnvironment);
+BENCHMARK_CAPTURE(warp, cosine_hemisphere, square_to_cosine_hemisphere<float>);
+BENCHMARK_CAPTURE(warp, uniform_hemisphere, square_to_uniform_hemisphere<float>);
+BENCHMARK_CAPTURE(warp, uniform_sphere, square_to_uniform_sphere<float>);
+BENCHMARK_CAPTURE(warp, uniform_disk, square_to_uniform_disk<float>);
+BENCHMARK_CAPTURE(warp, uniform_triangle, square_to_uniform_triangle<float>);
 BENCHMARK_CAPTURE(irradiance, rectangle_near, kRectangle, 0.2f);
 BENCHMARK_CAPTURE(irradiance, rectangle_by_solid_angle_near, kSphericalRectangle, 0.2f);
 BENCHMARK_CAPTURE(irradiance, rectangle_far, kRectangle, 4.0f);
