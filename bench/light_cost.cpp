@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,14 +31,14 @@ double rays_per_path(const renderer::PathCounters& c) {
   return per_path(c.camera_rays + c.bounce_rays + c.shadow_rays, c);
 }
 
-std::vector<std::string> measure(const NamedScene& lit, int repetitions) {
+std::vector<std::string> measure(const NamedScene& lit, std::uint32_t samples, int repetitions) {
   const auto description = load_at_size(lit.name, 96, 96);
   const renderer::Scene scene(description);
   Side with, without;
   with.options.path = {.strategy = renderer::Strategy::mis,
                        .max_depth = description.integrator.max_depth,
                        .rr_depth = description.integrator.rr_depth};
-  with.options.samples_per_pixel = 8;
+  with.options.samples_per_pixel = samples;
   with.options.threads = 1;
   without.options = with.options;
   without.options.path.strategy = renderer::Strategy::bsdf;
@@ -79,7 +80,9 @@ void measure_light_cost(reports::ResultLog& log, bool full) {
       "scene",          "rays without",         "rays with",
       "more rays",      "of which shadow rays", "without [ns/path]",
       "with [ns/path]", "time with / without",  "ns per light sample that asks a shadow ray"};
-  for (const NamedScene& scene : kTracedScenes) table.rows.push_back(measure(scene, full ? 21 : 7));
+  for (const NamedScene& scene : kTracedScenes) {
+    table.rows.push_back(measure(scene, full ? 8 : 4, full ? 21 : 7));
+  }
   publish(log, table);
 }
 

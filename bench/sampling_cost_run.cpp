@@ -38,7 +38,7 @@ void measure_sampling_cost(reports::ResultLog& log, const std::filesystem::path&
                                  "--benchmark_out_format=json",
                                  "--benchmark_out=" + (results / "sampling_cost.json").string(),
                                  "--benchmark_enable_random_interleaving=true",
-                                 std::string("--benchmark_min_time=") + (full ? "0.05" : "0.02"),
+                                 std::string("--benchmark_min_time=") + (full ? "0.05" : "0.01"),
                                  fmt::format("--benchmark_repetitions={}", repetitions),
                                  "--benchmark_report_aggregates_only=true"};
   std::vector<char*> argv;
