@@ -33,8 +33,14 @@ function formatNumber(value, digits = 5) {
     const [mantissa, exponent] = x.toExponential(Math.max(0, Math.min(digits, 3) - 1)).split('e');
     return minus(`${mantissa}e${exponent.replace('+', '')}`);
   }
-  const text = x.toPrecision(digits);
+  const text = plainPrecision(x, digits);
   return minus(text.includes('.') ? text.replace(/\.?0+$/, '') : text);
+}
+
+/** toPrecision() without the exponent that it gives numbers with more digits before the point. */
+function plainPrecision(x, digits) {
+  const text = x.toPrecision(digits);
+  return text.includes('e') ? String(Number(text)) : text;
 }
 
 function minus(text) {
@@ -45,7 +51,7 @@ function minus(text) {
 function formatAligned(value, digits = 5) {
   const x = toNumber(value);
   const size = Math.abs(x);
-  return size >= 1e-3 && size < 1e5 ? minus(x.toPrecision(digits)) : formatNumber(x, digits);
+  return size >= 1e-3 && size < 1e5 ? minus(plainPrecision(x, digits)) : formatNumber(x, digits);
 }
 
 /** A relative size in per cent with two significant digits. */

@@ -140,7 +140,7 @@ function renderTable() {
     {name: 'Mean RGB', number: true, cell: (r) => r.mean.map((v) => formatNumber(v, 5)).join('  ')},
     textColumn('Seed', (r) => r.seed, {number: true}),
   ];
-  return sortableTable(columns, data.renders);
+  return sortableTable(columns, data.renders.filter((r) => r.camera_rays > 0));  // the others are maps
 }
 
 function addImages() {
@@ -149,5 +149,5 @@ function addImages() {
   addSection('images', 'Rendered images', data.images.length,
     'Linear values; point at a pixel to read it, in all images of the scene at once.',
     element('div', {className: 'groups'}, groups.map(([name, images]) => pictureGroup(name, images))),
-    data.renders.length > 0 ? renderTable() : null);
+    data.renders.some((r) => r.camera_rays > 0) ? renderTable() : null);
 }

@@ -2,6 +2,7 @@
 // Plots by Chart.js: error against time, and the figures that benches and suites hand in.
 
 const kStrategies = ['bsdf', 'light', 'uniform', 'mis', 'one-sample'];
+const kFurther = ['other-1', 'other-2', 'other-3'];
 const kOthers = ['light', 'bsdf', 'mis', 'one-sample', 'other-1', 'other-2', 'other-3', 'uniform'];
 const kMarkers = ['rect', 'triangle', 'crossRot', 'circle', 'rectRot', 'star'];
 
@@ -111,21 +112,28 @@ function chartOptions(x, y) {
 
 const charts = [];
 
-/** A canvas whose chart is made again when the colour scheme changes. */
-function plot(makeDatasets, x, y, label, tall = false) {
+/**
+ * A canvas whose chart is made again when the colour scheme changes.
+ * @param redraw  receives what draws the chart anew
+ */
+function plot(makeDatasets, x, y, label, {legend = true, redraw = () => {}} = {}) {
   const canvas = element('canvas', {role: 'img', 'aria-label': label});
   let chart = null;
-  charts.push(() => {
+  const draw = () => {
     chart?.destroy();
+    const options = chartOptions(x, y);
+    options.plugins.legend.display = legend;
     Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
     chart = new Chart(canvas, {
       type: 'scatter',
       data: {datasets: makeDatasets()},
-      options: chartOptions(x, y),
+      options,
       plugins: [intervalBars],
     });
-  });
-  return element('div', {className: tall ? 'plot tall' : 'plot'}, canvas);
+  };
+  charts.push(draw);
+  redraw(draw);
+  return element('div', {className: 'plot'}, canvas);
 }
 
 function drawCharts() {
@@ -145,13 +153,13 @@ function curveStyle(curve, curves) {
   const others = [...new Set(curves.map((c) => c.strategy))].filter((s) => !kStrategies.includes(s));
   const index = siblings.indexOf(curve);
   return {
-    color: known ? curve.strategy : kOthers[others.indexOf(curve.strategy) % kOthers.length],
+    color: known ? curve.strategy : kFurther[others.indexOf(curve.strategy) % kFurther.length],
     marker: kMarkers[(Math.max(0, kStrategies.indexOf(curve.strategy)) + index) % kMarkers.length],
     dash: [[], [5, 4], [2, 3], [8, 3, 2, 3]][index % 4],
   };
 }
 
-/** Of many curves those that a reader looks for first; a click in the legend shows the others. */
+/** Of many curves those that a reader looks for first; the table shows the others. */
 function shownAtFirst(curve, curves) {
   if (curves.length <= 10) return true;
   if (curve.strategy === 'mis') return curve.heuristic === 'power';
@@ -160,7 +168,7 @@ function shownAtFirst(curve, curves) {
 
 const rootError = (relMse) => Math.sqrt(toNumber(relMse));
 
-function curveDatasets(scene, samplers) {
+function curveDatasets(scene, samplers, shown) {
   return scene.curves.flatMap((curve) => {
     const {color, marker, dash} = curveStyle(curve, scene.curves);
     const name = curveName(curve, samplers);
@@ -169,7 +177,7 @@ function curveDatasets(scene, samplers) {
       x,
       y: toNumber(curve.factor) * x ** toNumber(curve.slope),
     }));
-    const common = {curve: name, hidden: !shownAtFirst(curve, scene.curves), borderColor: cssColor(color), backgroundColor: cssColor(color)};
+    const common = {curve: name, hidden: !shown.has(curve), borderColor: cssColor(color), backgroundColor: cssColor(color)};
     return [
       {
         ...common,
@@ -186,7 +194,7 @@ function curveDatasets(scene, samplers) {
         })),
       },
       {...common, label: `${name}, fit`, unlisted: true, showLine: true, pointRadius: 0, borderWidth: 1.5,
-        borderDash: dash, data: fitted.every((p) => p.y > 0) ? fitted : []},
+        borderDash: dash, data: falls(curve) ? fitted : []},
     ];
   });
 }
@@ -197,59 +205,87 @@ function efficiency(curve) {
   return Math.exp(logs.reduce((a, b) => a + b, 0) / logs.length);
 }
 
-const timeTo = (error, curve) => (error / toNumber(curve.factor)) ** (1 / toNumber(curve.slope));
+/** Where the fit is sure to fall; a line that may as well rise says nothing of what lies beyond the points. */
+const falls = (curve) => toNumber(curve.slope) + 2 * toNumber(curve.slope_error) < 0;
+const timeTo = (error, curve) =>
+  falls(curve) ? (error / toNumber(curve.factor)) ** (1 / toNumber(curve.slope)) : NaN;
 
-function slopeTable(scene, samplers) {
+/** One row per curve; a box shows or hides it in the plot. */
+function curveTable(scene, samplers, shown, redraw) {
   const best = Math.max(...scene.curves.map(efficiency).filter(Number.isFinite));
   const last = (curve) => curve.points[curve.points.length - 1];
+  const box = (curve) => element('input', {
+    type: 'checkbox', checked: shown.has(curve), style: `accent-color:var(--${curveStyle(curve, scene.curves).color})`,
+    onchange: (event) => {
+      if (event.target.checked) shown.add(curve);
+      else shown.delete(curve);
+      redraw();
+    },
+  });
   const columns = [
     {
-      name: 'Strategy',
+      name: 'Curve',
       sort: (c) => curveName(c, samplers),
-      cell: (c) => [
+      cell: (c) => element('label', {}, box(c),
         element('span', {className: 'swatch', style: `background:var(--${curveStyle(c, scene.curves).color})`}),
-        curveName(c, samplers),
-      ],
+        curveName(c, samplers)),
     },
     {
-      name: 'Fitted slope',
+      name: 'Slope',
       title: 'Exponent of error ~ time^slope with its standard error; −1/2 for a plain Monte Carlo estimator',
       number: true,
       sort: (c) => toNumber(c.slope),
       cell: (c) =>
         Number.isFinite(toNumber(c.slope_error))
-          ? `${minus(toNumber(c.slope).toFixed(3))} ± ${toNumber(c.slope_error).toFixed(3)}`
+          ? `${minus(toNumber(c.slope).toFixed(2))} ± ${toNumber(c.slope_error).toFixed(2)}`
           : '–',
     },
-    numberColumn('1 % error after [s]', (c) => timeTo(0.01, c), (x) => formatAligned(x, 3),
-      {title: 'From the fitted line; beyond the measured points it is an extrapolation'}),
+    numberColumn('1 % after [s]', (c) => timeTo(0.01, c), (x) => formatAligned(x, 3),
+      {title: 'Time to a relative error of 1 %, from the fitted line where it surely falls; beyond the measured points it is an extrapolation'}),
     numberColumn('Efficiency', (c) => efficiency(c) / best, (x) => formatAligned(x, 3),
-      {title: '1/(relMSE · seconds), relative to the best here'}),
-    numberColumn('Mrays/s', (c) => last(c).rays / last(c).seconds / 1e6, (x) => formatAligned(x, 3)),
+      {title: '1/(relMSE · seconds), geometric mean over the points, relative to the best here'}),
+    {
+      name: 'relMSE',
+      number: true,
+      sort: (c) => toNumber(last(c).rel_mse),
+      cell: ({points}) => {
+        const {rel_mse: value, rel_mse_low: low, rel_mse_high: high} = points[points.length - 1];
+        return `${formatNumber(value, 3)} [${formatInterval(Math.max(toNumber(low), 0), high, 2)}]`;
+      },
+    },
+    numberColumn('Seconds', (c) => last(c).seconds, (x) => formatAligned(x, 3)),
+    numberColumn('Rays', (c) => last(c).rays, formatCount),
   ];
   return sortableTable(columns, scene.curves);
 }
 
+function speedCard(scene, samplers) {
+  const x = {label: 'time of one render [s]', log: true};
+  const y = {label: 'relative error (root of relMSE)', log: true};
+  const shown = new Set(scene.curves.filter((curve) => shownAtFirst(curve, scene.curves)));
+  let draw = () => {};
+  const picture = plot(() => curveDatasets(scene, samplers, shown), x, y, `Error against time, ${scene.scene}`,
+    {legend: false, redraw: (f) => { draw = f; }});
+  return element('div', {className: 'card'},
+    element('h3', {}, scene.scene, element('span', {className: 'aside'}, replicates(scene))),
+    element('div', {className: 'plot-and-table'}, picture, curveTable(scene, samplers, shown, () => draw())));
+}
+
 function replicates(scene) {
-  const counts = scene.curves.flatMap((curve) => curve.points.map((p) => p.replicates));
+  const points = scene.curves.flatMap((curve) => curve.points);
+  const counts = points.map((p) => p.replicates);
   const [low, high] = [Math.min(...counts), Math.max(...counts)];
-  return `${low === high ? low : `${low} to ${high}`} replicates of each point`;
+  return `${low === high ? low : `${low} to ${high}`} replicates of each point; relMSE, seconds and rays at ` +
+    `${Math.max(...points.map((p) => p.spp))} samples per pixel`;
 }
 
 function addSpeed() {
   if (data.speed.length === 0) return;
   const samplers = new Set(data.speed.flatMap((s) => s.curves.map((c) => c.sampler))).size;
-  const x = {label: 'time of one render [s]', log: true};
-  const y = {label: 'relative error (root of relMSE)', log: true};
-  const cards = data.speed.map((scene) =>
-    element('div', {className: 'card'},
-      element('h3', {}, scene.scene, element('span', {className: 'aside'}, replicates(scene))),
-      plot(() => curveDatasets(scene, samplers), x, y, `Error against time, ${scene.scene}`, scene.curves.length > 10),
-      slopeTable(scene, samplers)));
   addSection('speed', 'Error against time', data.speed.length,
-    'Lower and further left is better; a click in the legend shows or hides a curve. Bars: 95 % intervals over independent replicates. Lines: the fitted ' +
-    'power law; a plain Monte Carlo estimator falls with slope −1/2.',
-    element('div', {className: 'plots'}, cards));
+    'Lower and further left is better; the boxes show or hide curves. Bars: 95 % intervals over independent ' +
+    'replicates. Lines: the fitted power law; a plain Monte Carlo estimator falls with slope −1/2.',
+    element('div', {}, data.speed.map((scene) => speedCard(scene, samplers))));
 }
 
 // What shadow rays cost
