@@ -68,6 +68,14 @@ void light_pdf(benchmark::State& state, const Light& light) {
   }
 }
 
+/// What an emitter shows in a direction; of the others it is a constant.
+void light_eval(benchmark::State& state, const Light& light) {
+  Pcg32 random(1, 0, 0);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(radiance(light, square_to_uniform_hemisphere(random.next_2d())));
+  }
+}
+
 /// Irradiance of a floor below the corner of a light, near it or far: what a sample costs, and as
 /// the counter `variance` what it is worth, relative to the square of the mean.
 void irradiance(benchmark::State& state, const Light& light, float distance) {
@@ -132,6 +140,8 @@ BENCHMARK_CAPTURE(light_sample, environment_map, kMap);
 BENCHMARK_CAPTURE(light_pdf, environment_map, kMap);
 BENCHMARK_CAPTURE(light_sample, sun_and_sky, kSun);
 BENCHMARK_CAPTURE(light_pdf, sun_and_sky, kSun);
+BENCHMARK_CAPTURE(light_eval, environment_map, kMap);
+BENCHMARK_CAPTURE(light_eval, sun_and_sky, kSun);
 BENCHMARK_CAPTURE(light_sample, point, kPoint);
 BENCHMARK_CAPTURE(light_pdf, environment, kEnvironment);
 BENCHMARK_CAPTURE(warp, cosine_hemisphere, square_to_cosine_hemisphere<float>);
