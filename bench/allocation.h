@@ -10,6 +10,7 @@
 
 #include <plumbline/renderer/scene/description.h>
 #include <plumbline/reports/results.h>
+#include "allocation_bias.h"
 #include "allocation_reference.h"
 #include "statistics.h"
 
@@ -25,15 +26,18 @@ inline constexpr std::size_t kIterations = 20;
 
 /// The plates' scene with the exponents of one order.
 struct AllocationScene {
-  std::string name, title;
+  std::string name, title, exponents;
   std::map<std::string, std::string> parameters;
 };
 const std::array<AllocationScene, 2>& allocation_scenes();
 
 struct AllocationWork {
-  int width = 32, height = 24;
-  int replicates = 3;
-  std::uint32_t reference_samples = 1024;  ///< per pixel and replicate
+  int width = 40, height = 30;
+  bool full_size = false;              ///< as the bars ask
+  int replicates = 3, references = 3;  ///< as many or more: what renders are checked against
+  /// Of `lu` and `root-nodes`, for the bias; of the others `replicates`.
+  int lu_renders = 3, anchor_renders = 3;
+  std::uint32_t reference_samples = 1024;  ///< per pixel and reference
   int cost_width = 16, cost_height = 12;   ///< of the image that times are taken on
   int cost_repetitions = 3;
 };
@@ -64,13 +68,6 @@ struct MethodRun {
   double bsdf_share = 0;     ///< of all samples
 };
 
-/// What the renders of one policy said about its bias and its variance.
-struct RenderCheck {
-  std::string method;
-  Estimate bias;  ///< mean over pixels, in standard deviations of an equal-MIS pixel, 99.9 %
-  Estimate squared_ratio;  ///< mean of squared error over the variance predicted from its shares
-};
-
 /// Cost of one sample on one thread.
 struct PolicyCost {
   std::string method;
@@ -96,10 +93,10 @@ std::vector<PolicyCost> measure_policy_costs(const AllocationScene& scene,
                                              const AllocationWork& work, double cost_ratio);
 
 void report_allocation(reports::ResultLog& log, const AllocationScene& scene,
-                       const AllocationResults& results);
+                       const AllocationResults& results, const AllocationWork& work);
 void report_costs(reports::ResultLog& log, const AllocationScene& scene,
                   const AllocationResults& results, const Estimate& cost_ratio,
-                  const std::vector<PolicyCost>& costs);
+                  const std::vector<PolicyCost>& costs, const AllocationWork& work);
 
 renderer::SceneDescription load(const AllocationScene& scene, const AllocationWork& work);
 

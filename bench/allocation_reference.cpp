@@ -179,4 +179,17 @@ std::vector<PixelIntegrals> measure_integrals(const renderer::Scene& scene, std:
   return pixels;
 }
 
+double largest_around(const std::vector<PixelIntegrals>& pixels, int width, std::size_t pixel,
+                      double (*quantity)(const PixelIntegrals&)) {
+  const auto row = static_cast<std::size_t>(width);
+  const std::size_t x = pixel % row, y = pixel / row, height = pixels.size() / row;
+  double largest = 0;
+  for (std::size_t v = y - std::min<std::size_t>(y, 1); v <= std::min(y + 1, height - 1); ++v) {
+    for (std::size_t u = x - std::min<std::size_t>(x, 1); u <= std::min(x + 1, row - 1); ++u) {
+      largest = std::max(largest, quantity(pixels[v * row + u]));
+    }
+  }
+  return largest;
+}
+
 }  // namespace plumbline::bench

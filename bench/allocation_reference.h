@@ -49,4 +49,13 @@ std::size_t best_share(const PixelIntegrals& pixel);
 std::vector<PixelIntegrals> measure_integrals(const renderer::Scene& scene, std::uint32_t samples,
                                               std::uint64_t seed);
 
+/// Largest of a quantity over a pixel and those around it.
+double largest_around(const std::vector<PixelIntegrals>& pixels, int width, std::size_t pixel,
+                      double (*quantity)(const PixelIntegrals&));
+
+/// Variance of one sample at equal counts.
+inline double equal_variance(const PixelIntegrals& pixel) {
+  return pixel.count_variance(kIterationSamples / 2);
+}
+
 }  // namespace plumbline::bench

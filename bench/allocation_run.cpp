@@ -19,7 +19,11 @@ using renderer::Scene;
 
 constexpr std::size_t kEqual = kIterationSamples / 2;
 constexpr auto kSamples = static_cast<double>(kIterations * kIterationSamples);
-constexpr double kNormal999 = 3.2905;  // half-width of a 99.9 % interval, in standard errors
+
+// The other policies draw nearly the samples that root-nodes draws with the same seed.
+constexpr std::size_t kAnchor = 6;
+static_assert(renderer::kAllocations[kAnchor] == Allocation::root_nodes);
+constexpr std::uint64_t kPilotSeed = 0xb10f;
 
 using Reference = std::vector<PixelIntegrals>;
 
@@ -115,7 +119,8 @@ void write_map(const AllocationScene& scene, const Scene& built, const std::stri
   }
   const auto stem = directory / fmt::format("{}-{}", scene.name, method);
   reports::RenderRecord record;
-  record.scene = fmt::format("Share of BSDF samples, {}", scene.title);
+  record.scene =
+      fmt::format("Share of BSDF samples in the last iteration, 0.1 to 0.9: {}", scene.title);
   record.strategy = method;
   record.width = image.width;
   record.height = image.height;
@@ -125,57 +130,18 @@ void write_map(const AllocationScene& scene, const Scene& built, const std::stri
   reports::write_render_record(stem.string() + ".json", record);
 }
 
-/// Errors of the rendered pixels against the reference, over all replicates.
-class CheckSums {
- public:
-  /// @param judged  pixels to take into account
-  explicit CheckSums(const std::vector<bool>& judged) : judged_(judged) {}
-
-  /// @param own     reference of the same replicate, independent of all others
-  /// @param pooled  mean over all replicates
-  void add(const renderer::Film& film, const Shares& shares, const Reference& own,
-           const Reference& pooled, const std::vector<double>& pooled_error) {
-    double sum = 0, count = 0;
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      if (!judged_[i]) continue;
-      // Of all replicates: rounding can leave that of one a little below 0.
-      const double equal = pooled[i].count_variance(kEqual) / kSamples;
-      const double x = luminance(film.pixels()[i].mean);
-      const double z = (x - own[i].mean) / std::sqrt(equal);
-      sum_ += z;
-      sum_squares_ += z * z;
-      count_ += 1;
-      const double predicted =
-          variance_after(pooled[i], &shares[i * kIterations], kIterations, VarianceOf::counts);
-      sum += (x - pooled[i].mean) * (x - pooled[i].mean) / (predicted + pooled_error[i]);
-      count += 1;
-    }
-    squared_ratios_.push_back(sum / count);
-  }
-
-  RenderCheck result(const std::string& method) const {
-    const double mean = sum_ / count_;
-    const double error = std::sqrt((sum_squares_ / count_ - mean * mean) / count_);
-    return {method,
-            {mean, mean - kNormal999 * error, mean + kNormal999 * error},
-            mean_with_interval(squared_ratios_)};
-  }
-
- private:
-  const std::vector<bool>& judged_;
-  double sum_ = 0, sum_squares_ = 0, count_ = 0;
-  std::vector<double> squared_ratios_;
-};
-
 class Experiment {
  public:
   Experiment(const AllocationScene& scene, const AllocationWork& work, double cost_ratio,
              std::filesystem::path maps)
       : description_(scene),
+        work_(work),
         scene_(load(scene, work)),
         cost_ratio_(cost_ratio),
         maps_(std::move(maps)) {
-    for (int r = 0; r < work.replicates; ++r) {
+    const Reference pilot = measure_integrals(scene_, work.reference_samples, kPilotSeed);
+    units_ = pixel_units(pilot, scene_.camera().width(), kSamples);
+    for (int r = 0; r < work.references; ++r) {
       references_.push_back(measure_integrals(scene_, work.reference_samples,
                                               0x5eed + static_cast<std::uint64_t>(r)));
     }
@@ -184,16 +150,22 @@ class Experiment {
 
   AllocationResults run() {
     AllocationResults results;
-    const std::vector<bool> judged = judged_pixels();
-    std::vector<CheckSums> checks(std::size(renderer::kAllocations), CheckSums(judged));
-    for (std::size_t r = 0; r < references_.size(); ++r) {
+    std::vector<RenderErrors> errors(std::size(renderer::kAllocations));
+    for (std::size_t r = 0; r < replicates(); ++r) {
       results.replicates.push_back(known_methods(r));
-      for (std::size_t p = 0; p < checks.size(); ++p) {
-        results.replicates.back().push_back(policy_run(r, renderer::kAllocations[p], checks[p]));
+      for (std::size_t p = 0; p < errors.size(); ++p) {
+        results.replicates.back().push_back(policy_run(r, renderer::kAllocations[p], errors[p]));
       }
     }
-    for (std::size_t p = 0; p < checks.size(); ++p) {
-      results.checks.push_back(checks[p].result(std::string(name(renderer::kAllocations[p]))));
+    for (std::size_t p = 0; p < errors.size(); ++p) {
+      while (errors[p].renders() < renders_of(renderer::kAllocations[p])) {
+        render_policy(static_cast<std::size_t>(errors[p].renders()), renderer::kAllocations[p],
+                      errors[p]);
+      }
+    }
+    for (std::size_t p = 0; p < errors.size(); ++p) {
+      results.checks.push_back(
+          errors[p].result(std::string(name(renderer::kAllocations[p])), errors[kAnchor]));
     }
     return results;
   }
@@ -214,34 +186,11 @@ class Experiment {
     }
   }
 
-  /// Pixels whose variance the references are sure to know: none that sees a light, which is not
-  /// shared out, and none that has far less variance than a pixel beside it, of whose surface a
-  /// sliver may reach into it that no reference has hit.
-  std::vector<bool> judged_pixels() const {
-    const int width = scene_.camera().width(), height = scene_.camera().height();
-    const auto index = [width](int x, int y) {
-      return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-             static_cast<std::size_t>(x);
-    };
-    std::vector<bool> result(pooled_.size());
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        double largest = 0, emission = 0;
-        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
-          for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
-            const PixelIntegrals& pixel = pooled_[index(u, v)];
-            largest = std::max(largest, pixel.count_variance(kEqual));
-            emission += pixel.emission;
-          }
-        }
-        const std::size_t i = index(x, y);
-        const double variance = pooled_[i].count_variance(kEqual);
-        // The integrals are kept in float, which leaves 6e-8 μ² of rounding in their variance.
-        result[i] = emission == 0 && variance > 0.01 * largest &&
-                    variance > 1e-5 * pooled_[i].mean * pooled_[i].mean;
-      }
-    }
-    return result;
+  std::size_t replicates() const { return static_cast<std::size_t>(work_.replicates); }
+
+  int renders_of(Allocation policy) const {
+    if (policy == renderer::kAllocations[kAnchor]) return work_.anchor_renders;
+    return policy == Allocation::lu ? work_.lu_renders : work_.replicates;
   }
 
   /// Methods that need no rendering. What is best is found in the references of the other
@@ -254,10 +203,10 @@ class Experiment {
     const auto best = [&](const auto& choose) {
       return fixed_shares(judge.size(), kEqual, [&, choose](std::size_t i) {
         PixelIntegrals others;
-        for (std::size_t q = 0; q < references_.size(); ++q) {
+        for (std::size_t q = 0; q < replicates(); ++q) {
           if (q != r) others += references_[q][i];
         }
-        others /= static_cast<double>(references_.size() - 1);
+        others /= static_cast<double>(replicates() - 1);
         return choose(others);
       });
     };
@@ -270,24 +219,31 @@ class Experiment {
                        VarianceOf::optimal_weights)};
   }
 
-  MethodRun policy_run(std::size_t r, Allocation policy, CheckSums& check) const {
+  Shares render_policy(std::size_t r, Allocation policy, RenderErrors& errors) const {
     renderer::RenderOptions options;
     options.path.max_depth = 2;
     options.samples_per_pixel = static_cast<std::uint32_t>(kSamples);
     options.seed = r + 1;
     options.allocation = {.policy = policy, .iterations = kIterations, .cost_ratio = cost_ratio_};
     const renderer::RenderResult result = render(scene_, options);
-    const Shares shares(result.bsdf_counts.begin(), result.bsdf_counts.end());
+    errors.add(result, units_, pooled_, pooled_error_,
+               static_cast<double>(work_.references) * work_.reference_samples);
+    return {result.bsdf_counts.begin(), result.bsdf_counts.end()};
+  }
+
+  MethodRun policy_run(std::size_t r, Allocation policy, RenderErrors& errors) const {
+    const Shares shares = render_policy(r, policy, errors);
     const std::string method(name(policy));
     if (r == 0) write_map(description_, scene_, method, shares, maps_);
-    check.add(result.film, shares, references_[r], pooled_, pooled_error_);
     return method_run(method, references_[r], shares);
   }
 
   AllocationScene description_;
+  AllocationWork work_;
   Scene scene_;
   double cost_ratio_;
   std::filesystem::path maps_;
+  std::vector<PixelUnit> units_;
   std::vector<Reference> references_;
   Reference pooled_;
   std::vector<double> pooled_error_;  // variance of its means

@@ -43,7 +43,7 @@ std::vector<Part> make_parts(const std::filesystem::path& results) {
           {"shadow-rays", "shadow_rays", measure_shadow_rays},
           {"scaling", "bars_scaling", measure_scaling},
           {"speed-error", "speed_error", measure_speed_against_error},
-          {"allocation", "allocation",
+          {"allocation", "sample_allocation",
            [results](ResultLog& log, bool full) { measure_allocation(log, results, full); }},
           {"variance-claims", "variance_claims", measure_variance_claims, true},
           {"sampling-cost", "sampling_cost_table",

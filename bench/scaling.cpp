@@ -19,8 +19,7 @@ namespace plumbline::bench {
 namespace {
 
 constexpr const char* kGroup = "Scaling";
-constexpr double kLimitBytes = 2e9;  // for an image of 4096 × 4096 pixels
-constexpr double kMega = 1e6;
+constexpr double kMega = 1e6, kGiga = 1e9;
 
 struct Axis {
   const char *name, *title;
@@ -155,9 +154,9 @@ void measure_memory(reports::ResultLog& log, double base_bytes, bool full) {
   const double per_pixel = (cost.peak_bytes - base_bytes) / static_cast<double>(side * side);
   reports::Bar bar;
   bar.name = "Peak memory of a 4k × 4k image";
-  bar.unit = "bytes";
-  bar.limit = kLimitBytes;
-  bar.measured = bar.low = bar.high = base_bytes + per_pixel * 4096 * 4096;
+  bar.unit = "GB";
+  bar.limit = 2;
+  bar.measured = bar.low = bar.high = (base_bytes + per_pixel * 4096 * 4096) / kGiga;
   bar.indicative = !full;
   bar.note = fmt::format("Cornell box, {0} × {0}, Sobol: {1:.1f} bytes per pixel over {2:.1f} MB",
                          side, per_pixel, base_bytes / kMega);
