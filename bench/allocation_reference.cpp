@@ -12,37 +12,9 @@
 namespace plumbline::bench {
 namespace {
 
-using renderer::Vec2f;
-
 constexpr std::size_t kShares = kIterationSamples + 1;
 
 double share_of(std::size_t k) { return static_cast<double>(k) / kIterationSamples; }
-
-/// Points of a Kronecker lattice in five dimensions, shifted at random: each point is uniform, and
-/// together they fill the cube far more evenly than independent ones.
-/// @source the generalised golden ratio g⁶ = g + 1 as in Roberts 2018 ("R sequence")
-class ShiftedLattice {
- public:
-  explicit ShiftedLattice(renderer::Pcg32& random) {
-    for (std::size_t i = 0; i < kDimensions; ++i) {
-      point_[i] = random.next_bits();
-      step_[i] = static_cast<std::uint32_t>(
-          std::ldexp(std::pow(1.1347241384015194, -static_cast<double>(i + 1)), 32));
-    }
-  }
-
-  void advance() {
-    for (std::size_t i = 0; i < kDimensions; ++i) point_[i] += step_[i];
-  }
-
-  Vec2f pair(std::size_t i) const { return {unit(2 * i), unit(2 * i + 1)}; }
-  float unit(std::size_t i) const { return renderer::to_unit(point_[i]); }
-
- private:
-  static constexpr std::size_t kDimensions = 5;
-
-  std::array<std::uint32_t, kDimensions> point_{}, step_{};
-};
 
 /// Sums over the samples of one pixel.
 class Sums {
@@ -85,17 +57,15 @@ class Sums {
   std::array<double, kShares> moment_{}, bsdf_mean_{}, overlap_{};
 };
 
-PixelIntegrals measure_pixel(const renderer::Scene& scene, int x, int y, std::uint32_t samples,
-                             renderer::Pcg32 random) {
+PixelIntegrals measure_pixel(const renderer::Scene& scene, int x, int y, std::uint64_t pixel,
+                             std::uint32_t samples, std::uint64_t seed) {
   Sums sums;
   renderer::PathCounters counters;
   for (const std::size_t technique : {renderer::kBsdfTechnique, renderer::kLightTechnique}) {
-    ShiftedLattice lattice(random);
-    for (std::uint32_t s = 0; s < samples / 2; ++s, lattice.advance()) {
-      const Vec2f film = lattice.pair(0);
-      const renderer::Ray ray = scene.camera().ray(x, y, film);
-      sums.add(technique, sample_direct_light(scene, ray, technique, lattice.unit(4),
-                                              lattice.pair(1), counters));
+    for (std::uint32_t s = 0; s < samples / 2; ++s) {
+      renderer::Sampler points(renderer::SamplerType::sobol, seed, 2 * pixel + technique, s);
+      const renderer::Ray ray = scene.camera().ray(x, y, points.next_2d());
+      sums.add(technique, sample_direct_light(scene, ray, technique, points.next_2d(), counters));
     }
   }
   return sums.integrals(samples);
@@ -173,7 +143,7 @@ std::vector<PixelIntegrals> measure_integrals(const renderer::Scene& scene, std:
     for (int x = 0; x < width; ++x) {
       const std::size_t index =
           static_cast<std::size_t>(y) * row_length + static_cast<std::size_t>(x);
-      pixels[index] = measure_pixel(scene, x, y, samples, {seed, index, 0});
+      pixels[index] = measure_pixel(scene, x, y, index, samples, seed);
     }
   });
   return pixels;

@@ -42,10 +42,10 @@ struct PixelIntegrals {
 /// by Brent's method on a spline through the shares.
 std::size_t best_share(const PixelIntegrals& pixel);
 
-/// Estimates the integrals of every pixel from samples of both techniques, half each, on a lattice
-/// shifted at random pixel by pixel.
+/// Estimates the integrals of every pixel from samples of both techniques, half each, on
+/// Owen-scrambled Sobol' points.
 ///
-/// @param samples  per pixel, even
+/// @param samples  per pixel, a power of two
 std::vector<PixelIntegrals> measure_integrals(const renderer::Scene& scene, std::uint32_t samples,
                                               std::uint64_t seed);
 
