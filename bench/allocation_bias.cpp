@@ -10,10 +10,10 @@ constexpr std::size_t kEqual = kIterationSamples / 2;
 
 // A BSDF sample that hits the limb of a light, a rounding error outside the cone that light samples
 // fill, has the density of one technique only. One in 2e7 does, and in the second moment of its
-// pixel it is hundreds of standard deviations, where all others are within ten. Events of this size
-// are left out of both, the moment drawn (above this) and the exact one (below minus this, by the
-// number of samples), so that the expectation of their difference stays 0.
-constexpr double kFirefly = 50;
+// pixel it is hundreds of standard deviations, where all others are within ten. Events beyond this
+// are left out of the exact moment, and, as many times larger as there are more samples behind
+// that, of the drawn one, so that the expectation of their difference stays 0.
+constexpr double kFirefly = 12;
 
 constexpr double kNormal95 = 1.9600, kNormal999 = 3.2905;  // half-widths, in standard errors
 
@@ -83,7 +83,7 @@ void RenderErrors::add(const renderer::RenderResult& result, const std::vector<P
     // All surfaces are grey: the squared luminance is the luminance of the squares.
     const double drawn_moment = luminance(pixel.sum_squares) / n + x * x;
     const double off = (drawn_moment - moment) * units[i].per_square / unit;
-    if (off < kFirefly && off > -kFirefly * n / exact_samples) moments_[at] += off;
+    if (off > -kFirefly && off < kFirefly * exact_samples / n) moments_[at] += off;
     squares_[at] += errors.back() * errors.back();
     predicted_[at] += (variance + exact_variance[i]) / (unit * unit);
   }
