@@ -188,18 +188,19 @@ TEST_P(LightSelection, DensityOfADirectionIsTheSumOverAllLights) {
     const renderer::LightSet lights = light_set(count, GetParam());
     std::string subject = "overlapping lights/";
     subject.append(renderer::name(GetParam())).append("/").append(std::to_string(count));
+    const auto pdf_of = [&](std::uint32_t i, const Vec3<double>& wi) {
+      return lights.pmf<double>(i) * renderer::pdf(lights[i], Vec3<double>{}, wi);
+    };
     const auto sum = [&](const Vec3<double>& wi) {
       double result = 0;
-      for (std::uint32_t i = 0; i < count; ++i) result += lights.pdf(i, Vec3<double>{}, wi);
+      for (std::uint32_t i = 0; i < count; ++i) result += pdf_of(i, wi);
       return result;
     };
     const std::uint32_t narrowest = count - 1;
     expect_solid_angle(subject + "/widest", lights, 0, sum);
     expect_solid_angle(subject + "/narrowest", lights, narrowest, sum);
     if (count == 1) continue;
-    const auto one_only = [&](const Vec3<double>& wi) {
-      return lights.pdf(narrowest, Vec3<double>{}, wi);
-    };
+    const auto one_only = [&](const Vec3<double>& wi) { return pdf_of(narrowest, wi); };
     expect_solid_angle("control/" + subject + ", one light's density", lights, narrowest, one_only,
                        verify::Verdict::fail);
   }

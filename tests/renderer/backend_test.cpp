@@ -57,6 +57,16 @@ std::size_t differing_pixels(const Pair& pair) {
   return count;
 }
 
+/// Relative to the scalar one, plus a thousandth.
+void expect_equal_to_rounding(const Pair& pair, double tolerance) {
+  const auto& a = pair.scalar.film.pixels();
+  const auto& b = pair.batched.film.pixels();
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_LE(std::abs(a[i].mean.g - b[i].mean.g), tolerance * (std::abs(a[i].mean.g) + 1e-3))
+        << "pixel " << i;
+  }
+}
+
 template <class Check>
 void for_each_way(const std::string& file, const Check& check) {
   const SceneDescription description = small(file);
@@ -135,14 +145,7 @@ TEST(Backends, AgreeToRoundingOnSpheres) {
        {"analytic/scenes/furnace_rough_glass", "analytic/scenes/furnace_blend",
         "analytic/scenes/furnace_coat", "analytic/scenes/furnace_two_sided",
         "analytic/scenes/glass_film", "analytic/scenes/integrating_sphere", "bench/scenes/veach"}) {
-    for_each_way(file, [](const Pair& pair) {
-      const auto& a = pair.scalar.film.pixels();
-      const auto& b = pair.batched.film.pixels();
-      for (std::size_t i = 0; i < a.size(); ++i) {
-        const double tolerance = 1e-4 * (std::abs(a[i].mean.g) + 1e-3);
-        ASSERT_LE(std::abs(a[i].mean.g - b[i].mean.g), tolerance) << "pixel " << i;
-      }
-    });
+    for_each_way(file, [](const Pair& pair) { expect_equal_to_rounding(pair, 1e-4); });
   }
 }
 
@@ -176,7 +179,11 @@ TEST(Backends, EveryNumberOfPathsFillsItsBatches) {
     RenderOptions options = options_of(description, Strategy::mis, SamplerType::sobol);
     options.samples_per_pixel = samples;
     options.replicates = 3;
-    EXPECT_EQ(differing_pixels(render_both(scene, options)), 0u) << samples;
+    const Pair pair = render_both(scene, options);
+    // Of 12 million rays two met the diagonal of a rectangle, on which Embree takes the one half
+    // for one ray and the other for sixteen: the same point, rounded otherwise.
+    EXPECT_LE(differing_pixels(pair), 2u) << samples;
+    expect_equal_to_rounding(pair, 1e-7);
   }
 }
 

@@ -41,11 +41,27 @@ TEST(LightSet, RecordedDensityIsTheOneThatAHitAsksFor) {
     const auto sample = lights.sample(ref, u);
     if (!sample) continue;
     ASSERT_GT(sample->pdf_w, 0);
-    const double pdf_w = lights.pdf(light, ref, sample->wi);
+    const double pdf_w = lights.pdf_at_hit(light, ref, sample->wi);
     ASSERT_NEAR(pdf_w / sample->pdf_w, 1, 1e-9) << "light " << light << ", u " << u.x << ' ' << u.y;
     ++compared;
   }
   EXPECT_GT(compared, 10'000);
+}
+
+TEST(LightSet, ARayAtTheRimOfALightHasADensity) {
+  // Directions of float miss or hit a small sphere by their rounding: whoever found a hit is right.
+  const LightSet lights(std::vector<Light>{SphereLight{{0, 0, 10}, 0.01f, false, {1, 1, 1}}});
+  Pcg32 random(1, 0, 0);
+  int missed = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double phi = 2 * pi<double>() * static_cast<double>(random.next_1d());
+    const double sine = 1e-3;  // R/d: the rim
+    const Vec3f wi = vec_cast<float>(
+        Vec3d{sine * std::cos(phi), sine * std::sin(phi), std::sqrt(1 - sine * sine)});
+    missed += pdf(lights[0], Vec3f{}, wi) > 0 ? 0 : 1;
+    EXPECT_GT(lights.pdf_at_hit(0, Vec3f{}, wi), 0.0f);
+  }
+  EXPECT_GT(missed, 100);  // or the rim was no rim
 }
 
 /// Cells of a grid, 2^a by 2^b, that hold a point.

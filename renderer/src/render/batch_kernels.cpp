@@ -16,10 +16,11 @@ namespace {
 template <class T>
 using Local = std::conditional_t<std::is_trivially_copyable_v<T>, const T, const T&>;
 
-template <class L>
-void sample_lanes(const L& light, Shading& s, Run run) {
+/// @param sample_of  sample(ref, u) of one light
+template <class Sample>
+void sample_lanes(const Sample& sample_of, Shading& s, Run run) {
   for (std::size_t k = run.first; k < run.end; ++k) {
-    const auto sample = light.sample(s.position[k], Vec2f{s.u[k], s.v[k]});
+    const auto sample = sample_of(s.position[k], Vec2f{s.u[k], s.v[k]});
     const bool found = sample.has_value();
     const LightSample<float> l = found ? *sample : LightSample<float>{};
     s.shadow.direction.set(k, l.wi);
@@ -31,17 +32,24 @@ void sample_lanes(const L& light, Shading& s, Run run) {
   }
 }
 
+/// The light with its way of sampling as a constant: no other is left in the loop.
+template <bool by_solid_angle, class L>
+auto sampled_by(L light) {
+  return [light](const Vec3f& ref, const Vec2f& u) {
+    L fixed = light;
+    fixed.by_solid_angle = by_solid_angle;
+    return fixed.sample(ref, u);
+  };
+}
+
 template <class L>
 PLUMBLINE_KERNEL void sample_light_of_type(const L& shared, Shading& s, Run run) {
   if constexpr (requires { shared.by_solid_angle; }) {
-    if (!shared.by_solid_angle) {
-      L by_area = shared;
-      by_area.by_solid_angle = false;  // now a constant, which takes the other way out of the loop
-      return sample_lanes(by_area, s, run);
-    }
+    if (shared.by_solid_angle) return sample_lanes(sampled_by<true>(shared), s, run);
+    return sample_lanes(sampled_by<false>(shared), s, run);
   }
   const Local<L> light = shared;
-  sample_lanes(light, s, run);
+  sample_lanes([&](const Vec3f& ref, const Vec2f& u) { return light.sample(ref, u); }, s, run);
 }
 
 void store(Shading& s, std::size_t k, const BsdfValue<float>& value, const Vec3f& wi) {

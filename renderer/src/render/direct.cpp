@@ -50,7 +50,7 @@ class DirectLight {
     result.value = next->weight * found.radiance;
     result.pdf = next->is_atom() ? next->mass : next->pdf_w;
     if (next->is_atom()) return;  // no point on a light is chosen to lie just there
-    result.other_pdf = scene_.lights().pdf(found.light, vertex.hit.position, ray.direction);
+    result.other_pdf = scene_.lights().pdf_at_hit(found.light, vertex.hit.position, ray.direction);
   }
 
   void sample_light(const Vertex& vertex, const Vec2f& u, DirectSample& result) {

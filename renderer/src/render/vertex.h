@@ -77,7 +77,7 @@ inline float arrival_weight(const PathOptions& options, const LightSet& lights,
   const Techniques& t = arrival.techniques;
   if (arrival.by_atom) return share(options, static_cast<float>(t.directions()));
   if (t.draw_bsdf == 0) return 0;
-  const float pdf_light = t.n_light > 0 ? lights.pdf(light, arrival.ref, direction) : 0.0f;
+  const float pdf_light = t.n_light > 0 ? lights.pdf_at_hit(light, arrival.ref, direction) : 0.0f;
   return technique_weight(options, t.n_bsdf, arrival.pdf_w, t.n_light, pdf_light);
 }
 

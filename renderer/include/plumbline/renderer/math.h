@@ -117,6 +117,31 @@ template <class T>
   }
 }
 
+/// Angle of the point (x, y), from −π to π.
+///
+/// In float by a polynomial, which loops over many can vectorise; the quotient is still formed in
+/// the coordinates' own precision and range.
+/// @tparam Angle  scalar of the result
+/// @source        Abramowitz, Stegun 1964, 4.4.49; relative error of the polynomial 2e-8
+template <class Angle, class T>
+[[gnu::always_inline]] inline Angle angle_of(const T& y, const T& x) {
+  if constexpr (std::is_same_v<Angle, float>) {
+    const T abs_x = x < 0 ? -x : x, abs_y = y < 0 ? -y : y;
+    const T larger = abs_x < abs_y ? abs_y : abs_x, smaller = abs_x < abs_y ? abs_x : abs_y;
+    const float q = static_cast<float>(larger > 0 ? smaller / larger : T(0));
+    const float q2 = q * q;
+    float high = -0.0752896400f + q2 * (0.0429096138f + q2 * (-0.0161657367f + q2 * 0.0028662257f));
+    high = 0.1999355085f + q2 * (-0.1420889944f + q2 * (0.1065626393f + q2 * high));
+    const float octant = q + q * q2 * (-0.3333314528f + q2 * high);
+    const float quadrant = abs_x < abs_y ? pi<float>() / 2 - octant : octant;
+    const float half = x < 0 ? pi<float>() - quadrant : quadrant;
+    return y < 0 ? -half : half;
+  } else {
+    using std::atan2;
+    return atan2(y, x);
+  }
+}
+
 template <class T>
 struct Vec2 {
   T x{}, y{};

@@ -37,8 +37,21 @@ struct DiskLight {
     const auto hit = hit_front_of_plane(ref, wi, vec_cast<T>(center), unit<T>(normal));
     if (!hit) return T(0);
     const Vec3<T> p = ref + wi * hit->distance - vec_cast<T>(center);
-    if (!(length_squared(p) <= sqr(T(radius)))) return T(0);
-    return sqr(hit->distance) / (hit->cos_light * area<T>());
+    return length_squared(p) <= sqr(T(radius)) ? pdf_at(*hit) : T(0);
+  }
+
+  /// @return the same where a ray along wi is known to end on the light. At its edge rounding can
+  ///         say otherwise here, and a hit without a density would not be weighted down at all.
+  template <class T>
+  T pdf_at_hit(const Vec3<T>& ref, const Vec3<T>& wi) const {
+    const auto hit = hit_front_of_plane(ref, wi, vec_cast<T>(center), unit<T>(normal));
+    return hit ? pdf_at(*hit) : T(0);
+  }
+
+ private:
+  template <class T>
+  T pdf_at(const PlaneHit<T>& hit) const {
+    return sqr(hit.distance) / (hit.cos_light * area<T>());
   }
 };
 

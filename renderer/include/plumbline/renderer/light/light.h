@@ -53,6 +53,20 @@ T pdf(const Light& light, const Vec3<T>& ref, const Vec3<T>& wi) {
   return std::visit([&](const auto& l) { return l.pdf(ref, wi); }, light);
 }
 
+/// The same where a ray along wi is known to end on the light.
+template <class T>
+T pdf_at_hit(const Light& light, const Vec3<T>& ref, const Vec3<T>& wi) {
+  return std::visit(
+      [&](const auto& l) -> T {
+        if constexpr (requires { l.pdf_at_hit(ref, wi); }) {
+          return l.pdf_at_hit(ref, wi);
+        } else {
+          return l.pdf(ref, wi);
+        }
+      },
+      light);
+}
+
 /// What a ray in the direction `wi` that ends on the light's front finds there [W/(m² sr)]. No ray
 /// ends on a point light.
 inline Rgbf radiance(const Light& light, const Vec3f& wi) {
@@ -138,15 +152,15 @@ class LightSet {
     return result;
   }
 
-  /// Density with which `sample(ref, …)` produces the point of light `light` seen along wi: what
-  /// MIS needs at an emissive hit. Points of different lights are different points of path space,
-  /// so the other lights that may lie along the same direction do not enter; the density of the
-  /// direction alone is the sum over all lights.
+  /// Density with which `sample(ref, …)` produces the point of light `light` that a ray along wi is
+  /// known to end on: what MIS needs at an emissive hit. Points of different lights are different
+  /// points of path space, so the other lights that may lie along the same direction do not enter;
+  /// the density of the direction alone is the sum over all lights.
   ///
   /// @return pdf_w [1/sr], selection included
   template <class T>
-  T pdf(std::uint32_t light, const Vec3<T>& ref, const Vec3<T>& wi) const {
-    return pmf<T>(light) * renderer::pdf(lights_[light], ref, wi);
+  T pdf_at_hit(std::uint32_t light, const Vec3<T>& ref, const Vec3<T>& wi) const {
+    return pmf<T>(light) * renderer::pdf_at_hit(lights_[light], ref, wi);
   }
 
  private:

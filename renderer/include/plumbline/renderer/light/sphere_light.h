@@ -35,6 +35,15 @@ struct SphereLight {
     return inward ? pdf_from_inside(ref, wi) : pdf_cone(ref, wi);
   }
 
+  /// @return the same where a ray along wi is known to end on the light. At its edge rounding can
+  ///         say otherwise here, and a hit without a density would not be weighted down at all.
+  template <class T>
+  T pdf_at_hit(const Vec3<T>& ref, const Vec3<T>& wi) const {
+    if (inward) return pdf_from_inside(ref, wi);
+    const auto cone = cone_from(ref);
+    return cone ? uniform_cone_pdf_w(*cone) : T(0);
+  }
+
  private:
   /// The cone that the sphere subtends from a point outside.
   template <class T>

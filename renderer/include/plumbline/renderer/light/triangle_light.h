@@ -40,12 +40,18 @@ struct TriangleLight {
   /// @return pdf_w [1/sr] of `sample(ref, u)`; 0 where wi misses the front
   template <class T>
   T pdf(const Vec3<T>& ref, const Vec3<T>& wi) const {
+    return is_along(vec_cast<Wide<T>>(wi), vec_cast<Wide<T>>(v0) - vec_cast<Wide<T>>(ref))
+               ? pdf_at_hit(ref, wi)
+               : T(0);
+  }
+
+  /// @return the same where a ray along wi is known to end on the light. At its edge rounding can
+  ///         say otherwise here, and a hit without a density would not be weighted down at all.
+  template <class T>
+  T pdf_at_hit(const Vec3<T>& ref, const Vec3<T>& wi) const {
     const auto hit =
         hit_front_of_plane(ref, wi, vec_cast<T>(v0), plane_normal<T>(normal, edge_1, edge_2));
     if (!hit) return T(0);
-    if (!is_along(vec_cast<Wide<T>>(wi), vec_cast<Wide<T>>(v0) - vec_cast<Wide<T>>(ref))) {
-      return T(0);
-    }
     if (by_solid_angle) {
       const SphericalTriangle<Wide<T>> seen = seen_from(ref);
       if (large_enough(seen)) return static_cast<T>(Wide<T>(1) / seen.solid_angle());

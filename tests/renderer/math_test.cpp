@@ -1,0 +1,33 @@
+#include <plumbline/renderer/math.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace plumbline::renderer {
+namespace {
+
+TEST(SinCosTurns, HoldsItsErrorOverTheWholeTurn) {
+  for (int i = 0; i <= 10'000; ++i) {
+    const float u = static_cast<float>(i) / 10'000;
+    const auto [sine, cosine] = sin_cos_turns(u);
+    const double angle = 2 * pi<double>() * static_cast<double>(u);
+    EXPECT_NEAR(static_cast<double>(sine), std::sin(angle), 1.2e-7) << u;
+    EXPECT_NEAR(static_cast<double>(cosine), std::cos(angle), 1.2e-7) << u;
+  }
+}
+
+TEST(AngleOf, IsRightToFloatInEveryQuadrantAndForSmallAngles) {
+  for (int i = -10'000; i <= 10'000; ++i) {
+    const double angle = i == 0 ? 1e-9 : pi<double>() * i / 10'000;
+    // Far outside of what float could hold.
+    const double y = 1e60 * std::sin(angle), x = 1e60 * std::cos(angle);
+    const double expected = std::atan2(y, x);
+    EXPECT_NEAR(static_cast<double>(angle_of<float>(y, x)) / expected, 1, 3e-7) << angle;
+    EXPECT_EQ(angle_of<double>(y, x), expected);
+  }
+  EXPECT_EQ(angle_of<float>(0.0, 0.0), 0.0f);
+}
+
+}  // namespace
+}  // namespace plumbline::renderer
