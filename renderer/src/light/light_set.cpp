@@ -20,8 +20,8 @@ double area_of(const Light& light) {
       light);
 }
 
-/// Emitted power by luminance [W]: π L per area of an emitting side; of an infinite light what passes
-/// through the cross-section of the scene, from all directions.
+/// Emitted power by luminance [W]: π L per area of an emitting side; of an infinite light what
+/// passes through the cross-section of the scene, from all directions.
 class PowerOf {
  public:
   explicit PowerOf(double scene_radius) : cross_section_(pi<double>() * sqr(scene_radius)) {}

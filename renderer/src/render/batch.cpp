@@ -286,8 +286,9 @@ class Batch final : public BatchTracer {
       const std::uint32_t light = by_light ? s_.light[rays_.order()[k]] : 0;
       keys_[k] = std::min(hits_.bsdf[k], bsdfs) * stride + light;
     }
-    vertices_.sort(keys_, flying_, (bsdfs + 1) * stride);
-    s_.count = vertices_.begin(bsdfs * stride);
+    const std::size_t escaped = std::size_t{bsdfs} * stride;
+    vertices_.sort(keys_, flying_, escaped + stride);
+    s_.count = vertices_.begin(escaped);
     const Gather gather_hits(vertices_.order(), s_.count);
     gather_hits(s_.bsdf, hits_.bsdf);
     gather_hits(s_.position, hits_.position);
