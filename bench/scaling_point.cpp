@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -115,7 +116,6 @@ PointCost run_scaling_point(const std::string& axis, std::uint64_t value) {
   const std::string point = fmt::format("{}={}", axis, value);
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe for a measuring process");
-  const Clock::time_point start = Clock::now();
   const pid_t child = fork();
   if (child == 0) {
     dup2(ends[1], STDOUT_FILENO);
@@ -129,12 +129,32 @@ PointCost run_scaling_point(const std::string& axis, std::uint64_t value) {
   int status = 0;
   if (child > 0) waitpid(child, &status, 0);
   PointCost cost;
-  cost.process_seconds = since(start);
   if (child < 0 || status != 0 ||
       !(answer >> cost.build_seconds >> cost.render_seconds >> cost.peak_bytes)) {
     throw std::runtime_error("the measuring process of " + point + " failed");
   }
   return cost;
+}
+
+double first_picture_seconds() {
+  const std::filesystem::path image =
+      std::filesystem::temp_directory_path() / fmt::format("plumbline_first_{}.exr", getpid());
+  const std::string scene = std::string(PLUMBLINE_BENCH_SCENES) + "/cornell.xml";
+  const Clock::time_point start = Clock::now();
+  const pid_t child = fork();
+  if (child == 0) {
+    if (std::freopen("/dev/null", "w", stdout) == nullptr) _exit(127);
+    execl(PLUMBLINE_COMMAND, PLUMBLINE_COMMAND, "render", scene.c_str(), "--size", "64x64", "--spp",
+          "1", "-o", image.c_str(), nullptr);
+    _exit(127);
+  }
+  int status = 0;
+  if (child > 0) waitpid(child, &status, 0);
+  const double seconds = since(start);
+  if (child < 0 || status != 0 || !std::filesystem::remove(image)) {
+    throw std::runtime_error(std::string(PLUMBLINE_COMMAND) + " render failed");
+  }
+  return seconds;
 }
 
 }  // namespace plumbline::bench
