@@ -23,7 +23,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 WORK = ROOT / "build" / "mutants"
 PARTS = ["CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "cmake", "docs", "verify", "analytic",
-         "renderer", "reports", "tools", "tests"]
+         "renderer", "reports", "tools", "tests", "bench/scenes"]
 
 
 def files_of(folder):
