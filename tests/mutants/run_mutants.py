@@ -67,6 +67,8 @@ def unexpected_checks(results):
     kinds = collections.defaultdict(list)
     log = results / "checks.jsonl"
     for line in log.read_text().splitlines() if log.exists() else []:
+        if not line:  # what a log gets where one process looks while another writes
+            continue
         record = json.loads(line)
         if record.get("verdict") != record.get("expected"):
             kinds[record["check"]].append((record["samples"], record["subject"]))
