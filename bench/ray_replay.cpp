@@ -101,9 +101,8 @@ void measure_ray_replay(reports::ResultLog& log, bool full) {
   table.caption =
       "All rays of a render (mis, Sobol), asked again of Embree alone in the same order and "
       "widths: time of the replay over that of the render, medians of interleaved repetitions with "
-      "95 % "
-      "intervals, CPU time on one thread. One by one: the same with one ray per call; above 1 the "
-      "packets of the render beat it.";
+      "95 % intervals, CPU time on one thread. One by one: the same with one ray per call; above 1 "
+      "the packets of the render beat it.";
   table.columns = {"scene",
                    "rays per path",
                    "rays per call",

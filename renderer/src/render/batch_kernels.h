@@ -22,7 +22,7 @@ struct Shading {
   RayLanes shadow;     // its direction is world, towards the light
   Lanes<float> distance, cos_light, pdf_light, mass;  // both 0: no light sample
   RgbLanes radiance, f;
-  Lanes<float> cosine, pdf_bsdf;  // of to_light
+  Lanes<float> cosine, pdf_bsdf;  // of shadow.direction
   RgbLanes contribution;
   Lanes<float> shadow_t_max;
   IndexLanes shadow_kind;   // octant, or one of the two below
