@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/verify/variance_ratio.h>
+#include <plumbline/verify/ratio.h>
 #include "publish.h"
 #include "variance_claims.h"
 

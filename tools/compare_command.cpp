@@ -15,7 +15,7 @@
 #include <plumbline/analytic/known_scene.h>
 #include <plumbline/renderer/render/exr.h>
 #include <plumbline/renderer/scene/description.h>
-#include <plumbline/verify/image_check.h>
+#include <plumbline/verify/image.h>
 
 #include "command.h"
 #include "numbers.h"

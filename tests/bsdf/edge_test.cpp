@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/detail/random.h>
 #include "examples.h"
 #include "hard_points.h"
 

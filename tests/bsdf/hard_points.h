@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <plumbline/renderer/bsdf/bsdf.h>
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/detail/random.h>
 
 /// Inputs at which BSDF code loses its digits: grazing and normal incidence, critical angles, half
 /// vectors along the surface or almost zero, random numbers at the ends of their range.

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/detail/random.h>
 #include "examples.h"
 
 /// pdf = 1/|∂wi/∂u|, with derivatives to machine precision: the sampling code itself runs in an

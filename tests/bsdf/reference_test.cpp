@@ -9,8 +9,8 @@
 
 #include <plumbline/analytic/bsdf_albedo.h>
 #include <plumbline/analytic/fresnel.h>
-#include <plumbline/verify/mean_check.h>
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/detail/random.h>
+#include <plumbline/verify/mean.h>
 #include "examples.h"
 #include "hard_points.h"
 #include "known_albedo.h"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <plumbline/renderer/sampling/pcg32.h>
-#include <plumbline/verify/contract.h>
-#include <plumbline/verify/jacobian_autodiff.h>
-#include <plumbline/verify/mean_check.h>
+#include <plumbline/verify/autodiff.h>
+#include <plumbline/verify/mean.h>
+#include <plumbline/verify/pair.h>
 
 #include "light_examples.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include <plumbline/renderer/sampling/warps.h>
-#include <plumbline/verify/contract.h>
-#include <plumbline/verify/jacobian_autodiff.h>
+#include <plumbline/verify/autodiff.h>
+#include <plumbline/verify/pair.h>
 
 /// Every warp of the renderer through the contract battery, in one explicit list.
 namespace plumbline::tests {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <plumbline/analytic/mixture_variance.h>
-#include <plumbline/verify/agree.h>
+#include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 
 #include "allocation_run.h"

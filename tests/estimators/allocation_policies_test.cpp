@@ -7,7 +7,7 @@
 
 #include <plumbline/renderer/from_name.h>
 #include <plumbline/renderer/mis/allocation.h>
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/detail/random.h>
 
 #include "integral_problem.h"
 

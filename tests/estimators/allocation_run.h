@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include <plumbline/renderer/mis/allocation.h>
-#include <plumbline/verify/mean_check.h>
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/detail/random.h>
+#include <plumbline/verify/mean.h>
 
 #include "integral_problem.h"
 

@@ -7,7 +7,7 @@
 
 #include <plumbline/analytic/estimator_moments.h>
 #include <plumbline/renderer/mis/estimators.h>
-#include <plumbline/verify/mean_check.h>
+#include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 
 #include "integral_problem.h"

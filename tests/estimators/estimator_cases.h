@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <plumbline/analytic/estimator_moments.h>
-#include <plumbline/verify/mean_check.h>
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/detail/random.h>
+#include <plumbline/verify/mean.h>
 
 namespace plumbline::tests {
 

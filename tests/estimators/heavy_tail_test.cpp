@@ -8,7 +8,7 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
 
-#include <plumbline/verify/mean_check.h>
+#include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 
 #include "estimator_cases.h"

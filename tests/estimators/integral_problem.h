@@ -5,7 +5,7 @@
 
 #include <plumbline/analytic/integral1d.h>
 #include <plumbline/renderer/mis/estimators.h>
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/detail/random.h>
 
 namespace plumbline::tests {
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <plumbline/analytic/estimator_moments.h>
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/detail/random.h>
 #include <plumbline_tests/support.h>
 
 #include "estimator_cases.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <plumbline/verify/mean_check.h>
+#include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 
 #include "estimator_cases.h"

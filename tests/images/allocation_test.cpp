@@ -8,7 +8,7 @@
 #include <plumbline/analytic/known_scene.h>
 #include <plumbline/renderer/render/render.h>
 #include <plumbline/renderer/scene/load_scene.h>
-#include <plumbline/verify/mean_check.h>
+#include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 
 /// Sample allocation in the renderer: the image that it converges to, and what it refuses.

@@ -13,8 +13,7 @@
 
 #include <plumbline/analytic/known_scene.h>
 #include <plumbline/renderer/scene/load_scene.h>
-#include <plumbline/verify/agree.h>
-#include <plumbline/verify/mean_check.h>
+#include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 #include "path_samples.h"
 #include "ways.h"

@@ -4,7 +4,7 @@
 
 #include <plumbline/renderer/render/path.h>
 #include <plumbline/renderer/scene/scene.h>
-#include <plumbline/verify/mean_check.h>
+#include <plumbline/verify/mean.h>
 
 namespace plumbline::tests {
 

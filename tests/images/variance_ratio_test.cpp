@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <plumbline/renderer/scene/load_scene.h>
-#include <plumbline/verify/agree.h>
-#include <plumbline/verify/variance_ratio.h>
+#include <plumbline/verify/mean.h>
+#include <plumbline/verify/ratio.h>
 #include <plumbline_tests/support.h>
 #include "path_samples.h"
 

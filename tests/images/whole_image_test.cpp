@@ -6,7 +6,7 @@
 #include <plumbline/analytic/known_scene.h>
 #include <plumbline/renderer/render/render.h>
 #include <plumbline/renderer/scene/load_scene.h>
-#include <plumbline/verify/image_check.h>
+#include <plumbline/verify/image.h>
 #include <plumbline_tests/support.h>
 
 /// Whole images against the closed form averaged over each pixel's footprint: mean, tiles and

@@ -17,7 +17,7 @@ function(headers_of file result)
   set(${result} "${out}" PARENT_SCOPE)
 endfunction()
 
-set(with_boost "${ROOT}/include/plumbline/verify/jacobian_autodiff.h")
+set(with_boost "${ROOT}/include/plumbline/verify/autodiff.h")
 headers_of("${with_boost}" found)
 if(NOT found MATCHES "/boost/")
   message(FATAL_ERROR "${with_boost} should be seen to include Boost")

@@ -1,4 +1,4 @@
-#include <plumbline/verify/chi_square.h>
+#include <plumbline/verify/pair.h>
 
 #include <gtest/gtest.h>
 

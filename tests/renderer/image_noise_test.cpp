@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <plumbline/renderer/render/render.h>
-#include <plumbline/verify/mean_check.h>
-#include <plumbline/verify/variance_ratio.h>
+#include <plumbline/verify/mean.h>
+#include <plumbline/verify/ratio.h>
 #include <plumbline_tests/support.h>
 #include "scenes.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <plumbline/renderer/render/path.h>
-#include <plumbline/verify/mean_check.h>
+#include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 #include "scenes.h"
 

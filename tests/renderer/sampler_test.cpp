@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/verify/chi_square.h>
-#include <plumbline/verify/mean_check.h>
-#include <plumbline/verify/variance_ratio.h>
+#include <plumbline/verify/mean.h>
+#include <plumbline/verify/pair.h>
+#include <plumbline/verify/ratio.h>
 #include <plumbline_tests/support.h>
 
 namespace plumbline::tests {

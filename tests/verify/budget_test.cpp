@@ -3,7 +3,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include <plumbline/verify/budget.h>
+#include <plumbline/verify/detail/budget.h>
 
 namespace plumbline::verify {
 namespace {

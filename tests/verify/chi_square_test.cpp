@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include <plumbline/verify/chi_square.h>
+#include <plumbline/verify/pair.h>
 
 namespace plumbline::verify {
 namespace {

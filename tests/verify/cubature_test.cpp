@@ -4,11 +4,11 @@
 #include <numbers>
 #include <utility>
 
-#include <plumbline/verify/sampling_pair.h>
+#include <plumbline/verify/pair.h>
 
-#include "binned_pair.h"
-#include "cubature.h"
-#include "mass_balance.h"
+#include "pairs/binned_pair.h"
+#include "pairs/cubature.h"
+#include "pairs/mass_balance.h"
 
 namespace plumbline::verify {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <plumbline/verify/budget.h>
-#include <plumbline/verify/mean_check.h>
+#include <plumbline/verify/detail/budget.h>
+#include <plumbline/verify/mean.h>
 
-#include "mean_judgement.h"
+#include "means/mean_judgement.h"
 
 /// How often the mean check fails a correct but skewed estimator, summed exactly; simulated by the
 /// calibration.

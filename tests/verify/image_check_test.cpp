@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <plumbline/verify/image_check.h>
+#include <plumbline/verify/image.h>
 
 #include "samplers.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <plumbline/verify/bsdf.h>
-#include <plumbline/verify/contract.h>
+#include <plumbline/verify/pair.h>
 
 #include "correct_pairs.h"
 

@@ -5,8 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include <plumbline/verify/agree.h>
-#include <plumbline/verify/mean_check.h>
+#include <plumbline/verify/mean.h>
 
 #include "samplers.h"
 

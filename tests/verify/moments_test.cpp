@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include <plumbline/verify/moments.h>
+#include <plumbline/verify/detail/moments.h>
 
 #include "samplers.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <plumbline/verify/proportion.h>
+#include <plumbline/verify/ratio.h>
 
 namespace plumbline::verify {
 namespace {

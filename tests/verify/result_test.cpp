@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <plumbline/verify/result.h>
+#include <plumbline/verify/detail/result.h>
 
 namespace plumbline::verify {
 namespace {

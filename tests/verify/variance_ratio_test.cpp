@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <plumbline/verify/variance_ratio.h>
+#include <plumbline/verify/ratio.h>
 
 #include "samplers.h"
 

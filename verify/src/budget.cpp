@@ -2,7 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <plumbline/verify/budget.h>
+#include <plumbline/verify/detail/budget.h>
 
 namespace plumbline::verify {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <plumbline/verify/result.h>
+#include <plumbline/verify/detail/result.h>
 
 #include "text.h"
 

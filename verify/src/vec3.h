@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <plumbline/verify/vector_access.h>
+#include <plumbline/verify/detail/vector_access.h>
 
 namespace plumbline::verify {
 

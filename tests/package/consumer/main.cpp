@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <plumbline/verify/chi_square.h>
+#include <plumbline/verify/pair.h>
 
 // A pair of this project's own: right if `scale` is 1.
 plumbline::verify::CheckResult check(double scale) {

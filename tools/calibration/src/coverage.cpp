@@ -1,8 +1,7 @@
 #include <cmath>
 #include <utility>
 
-#include <plumbline/verify/proportion.h>
-#include <plumbline/verify/variance_ratio.h>
+#include <plumbline/verify/ratio.h>
 
 #include "batches.h"
 #include "tables.h"

@@ -1,10 +1,9 @@
 #include <cmath>
 #include <utility>
 
-#include <plumbline/verify/agree.h>
-#include <plumbline/verify/chi_square.h>
-#include <plumbline/verify/proportion.h>
-#include <plumbline/verify/variance_ratio.h>
+#include <plumbline/verify/mean.h>
+#include <plumbline/verify/pair.h>
+#include <plumbline/verify/ratio.h>
 
 #include "batches.h"
 #include "examples.h"

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include <plumbline/verify/image_check.h>
-#include <plumbline/verify/sampling_pair.h>
+#include <plumbline/verify/image.h>
+#include <plumbline/verify/pair.h>
 
 /// Sampling pairs and images that the experiments look at.
 namespace plumbline::calibration {

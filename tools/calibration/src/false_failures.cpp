@@ -1,7 +1,7 @@
 #include <utility>
 
-#include <plumbline/verify/mean_check.h>
-#include <plumbline/verify/proportion.h>
+#include <plumbline/verify/mean.h>
+#include <plumbline/verify/ratio.h>
 
 #include "batches.h"
 #include "tables.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <plumbline/verify/proportion.h>
+#include <plumbline/verify/ratio.h>
 
 #include "tables.h"
 

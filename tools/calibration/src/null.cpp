@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include <plumbline/verify/agree.h>
-#include <plumbline/verify/chi_square.h>
-#include <plumbline/verify/variance_ratio.h>
+#include <plumbline/verify/mean.h>
+#include <plumbline/verify/pair.h>
+#include <plumbline/verify/ratio.h>
 
 #include "batches.h"
 #include "examples.h"

@@ -1,9 +1,8 @@
 #include <utility>
 
-#include <plumbline/verify/agree.h>
-#include <plumbline/verify/image_check.h>
-#include <plumbline/verify/proportion.h>
-#include <plumbline/verify/variance_ratio.h>
+#include <plumbline/verify/image.h>
+#include <plumbline/verify/mean.h>
+#include <plumbline/verify/ratio.h>
 
 #include "batches.h"
 #include "examples.h"

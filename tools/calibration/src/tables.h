@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <plumbline/calibration/experiments.h>
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/detail/random.h>
 
 /// The experiments of each table, and what they share.
 namespace plumbline::calibration {

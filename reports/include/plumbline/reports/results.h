@@ -13,7 +13,7 @@
 #include <plumbline/reports/render_record.h>
 #include <plumbline/reports/stability_record.h>
 #include <plumbline/reports/table.h>
-#include <plumbline/verify/result.h>
+#include <plumbline/verify/detail/result.h>
 
 namespace plumbline::reports {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <plumbline/verify/result.h>
+#include <plumbline/verify/detail/result.h>
 
 namespace plumbline::tests {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/verify/contract.h>
-#include <plumbline/verify/erase_bsdf.h>
-#include <plumbline/verify/result.h>
+#include <plumbline/verify/detail/erase_bsdf.h>
+#include <plumbline/verify/detail/result.h>
+#include <plumbline/verify/pair.h>
 
 namespace plumbline::verify {
 

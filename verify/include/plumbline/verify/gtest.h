@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/verify/result.h>
+#include <plumbline/verify/detail/result.h>
 
 /// Verdicts as GoogleTest assertions. Header-only; needs GoogleTest and nothing else.
 namespace plumbline::verify {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/verify/result.h>
+#include <plumbline/verify/detail/result.h>
 
 /// What the checks of plumbline::verify claim about themselves, measured: each is run many times on
 /// code whose answer is known, correct or wrong by a known amount.

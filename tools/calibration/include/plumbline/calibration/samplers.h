@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <numbers>
 
-#include <plumbline/verify/mean_check.h>
-#include <plumbline/verify/random.h>
+#include <plumbline/verify/detail/random.h>
+#include <plumbline/verify/mean.h>
 
 /// Estimators whose mean and variance are known, for the checks to be held against.
 namespace plumbline::calibration {

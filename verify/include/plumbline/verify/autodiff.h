@@ -1,0 +1,198 @@
+#pragma once
+
+// Needs the headers of Boost.Math (1.73 or later), which the library itself keeps to its sources:
+// for tests of samplers that are templates over their scalar.
+
+#include <boost/math/differentiation/autodiff.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include <plumbline/verify/detail/domain.h>
+#include <plumbline/verify/detail/random.h>
+#include <plumbline/verify/detail/result.h>
+#include <plumbline/verify/detail/vector_access.h>
+
+namespace plumbline::verify {
+
+/// What the autodiff Jacobian check is asked.
+struct AutodiffOptions {
+  int points = 10'000;
+  double tolerance = 1e-9;  ///< relative error of pdf·|∂x/∂u|, in double
+  double nearest =
+      1e-12;  ///< how close u comes to 0 and 1; half of all points are spread towards them
+  std::uint64_t seed = 1;
+};
+
+namespace detail {
+
+namespace autodiff = boost::math::differentiation;
+
+/// A point's coordinates with their derivatives along both uniform numbers.
+struct Differential {
+  Vec3 x{}, du{}, dv{};
+};
+
+template <class P>
+auto coordinate(const P& p, std::size_t i) {
+  if constexpr (requires { p.x; }) {
+    if constexpr (requires { p.z; }) {
+      return i == 0 ? p.x : i == 1 ? p.y : p.z;
+    } else {
+      return i == 0 ? p.x : p.y;
+    }
+  } else {
+    return p[i];
+  }
+}
+
+template <class P>
+constexpr std::size_t coordinates() {
+  if constexpr (
+      requires(const P& p) { p.x; } && !requires(const P& p) { p.z; }) {
+    return 2;
+  } else {
+    return 3;
+  }
+}
+
+template <class Sample>
+std::optional<Differential> differentiate(const Sample& sample, double u, double v) {
+  using F = autodiff::autodiff_fvar<double, 1, 1>;
+  const auto variables = autodiff::make_ftuple<double, 1, 1>(u, v);
+  const auto point = sample(F(std::get<0>(variables)), F(std::get<1>(variables)));
+  if (!point) return std::nullopt;
+  Differential d;
+  for (std::size_t i = 0; i < coordinates<std::remove_cvref_t<decltype(*point)>>(); ++i) {
+    const F c = coordinate(*point, i);
+    d.x[i] = static_cast<double>(c);
+    d.du[i] = c.derivative(1, 0);
+    d.dv[i] = c.derivative(0, 1);
+  }
+  return d;
+}
+
+inline std::string in_words(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+/// |∂x/∂u × ∂x/∂v|: the area that a square of uniform numbers is spread over.
+inline double area_element(const Differential& d) {
+  const Vec3& a = d.du;
+  const Vec3& b = d.dv;
+  return std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                    a[0] * b[1] - a[1] * b[0]);
+}
+
+/// One point of the check: how far pdf·|∂x/∂u| is from 1, and how far rounding of x may put it.
+struct JacobianPoint {
+  double error = 0, rounding = 0;
+};
+
+/// Where rounding put the point outside the support, one a hair further inside stands for it.
+template <class Sample, class Pdf>
+std::optional<JacobianPoint> jacobian_error(const Domain& domain, const Sample& sample,
+                                            const Pdf& pdf, double u, double v, double tolerance) {
+  JacobianPoint point;
+  for (const double inwards : {0.0, 0x1p-44, 0x1p-36}) {
+    const auto d = differentiate(sample, u + inwards * (0.5 - u), v + inwards * (0.5 - v));
+    if (!d) return std::nullopt;
+    const double area = area_element(*d), density = pdf(d->x);
+    point.error = std::abs(density * area - 1);
+    if (density == 0) continue;
+    if (point.error <= tolerance) break;
+    for (const double angle : {0.0, 1.6, 3.1, 4.7}) {
+      const double beside = pdf(domain.chart().near(d->x, 0x1p-51, angle));
+      point.rounding = std::max(point.rounding, std::abs(beside - density) * area);
+    }
+    break;
+  }
+  return point;
+}
+
+inline double number_towards_ends(Random& random, double nearest) {
+  if (random.uniform() < 0.5) return std::clamp(random.uniform(), nearest, 1 - nearest);
+  const double small = std::pow(nearest, random.uniform());
+  return std::clamp(random.uniform() < 0.5 ? small : 1 - small, nearest, 1 - nearest);
+}
+
+}  // namespace detail
+
+/// pdf · |∂x/∂u| = 1 to machine precision, by automatic differentiation; and at the corners of the
+/// unit square (u = 0, u = 1 − ulp) the point is finite and in the domain.
+///
+/// Where the density itself changes by more than the tolerance when its point is rounded (the
+/// silhouette of a sphere, say), that change is allowed for, and the point counted in the figures;
+/// more than a tenth of such points is inconclusive.
+///
+/// @param sample  template over its scalar: (T u, T v) to an optional point, with x, y (, z) or
+/// operator[]
+/// @param pdf     (T) of a point in double, as a Vec3
+template <class Sample, class Pdf>
+CheckResult check_jacobian_autodiff(const std::string& subject, const Domain& domain,
+                                    const Sample& sample, const Pdf& pdf,
+                                    const AutodiffOptions& options = {}) {
+  CheckResult r;
+  r.check = "jacobian_autodiff";
+  r.subject = subject;
+  r.reference = 0;
+  r.tolerance = options.tolerance;
+  r.seed = options.seed;
+  r.leaned_on = "automatic differentiation";
+  r.verdict = Verdict::pass;
+  const auto fail = [&r](const std::string& reason) {
+    if (r.verdict != Verdict::fail) r.reason = reason;
+    r.verdict = Verdict::fail;
+  };
+  Random random(options.seed);
+  double worst = 0;
+  std::uint64_t ill_conditioned = 0;
+  for (int i = 0; i < options.points; ++i) {
+    const double u = detail::number_towards_ends(random, options.nearest);
+    const double v = detail::number_towards_ends(random, options.nearest);
+    const auto point = detail::jacobian_error(domain, sample, pdf, u, v, options.tolerance);
+    if (!point) continue;
+    ++r.samples;
+    if (!(point->error <= options.tolerance + point->rounding)) {
+      fail("pdf · |dx/du| is off by " + detail::in_words(point->error) + " at u = (" +
+           detail::in_words(u) + ", " + detail::in_words(v) + ")");
+    } else if (point->error > options.tolerance) {
+      ++ill_conditioned;
+      continue;
+    }
+    if (!(point->error <= worst)) worst = point->error;
+  }
+  for (const double u : {0.0, 0.5, 1 - 0x1p-53}) {
+    for (const double v : {0.0, 0.5, 1 - 0x1p-53}) {
+      const auto point = sample(u, v);
+      if (!point) continue;
+      Vec3 x{};
+      for (std::size_t i = 0; i < detail::coordinates<std::remove_cvref_t<decltype(*point)>>();
+           ++i) {
+        x[i] = static_cast<double>(detail::coordinate(*point, i));
+      }
+      if (!(domain.chart().distance(x) <= 1e-12)) {
+        fail("at a corner of the unit square the point is not in the domain");
+      }
+    }
+  }
+  r.estimate = r.bound = worst;
+  r.figures = {{"ill-conditioned points", static_cast<double>(ill_conditioned)}};
+  if (r.samples == 0) {
+    r.verdict = Verdict::inconclusive;
+    r.reason = "the map gave no point";
+  } else if (r.verdict == Verdict::pass && 10 * ill_conditioned > r.samples) {
+    r.verdict = Verdict::inconclusive;
+    r.reason = "rounding of the point changes the density by more than the tolerance too often";
+  }
+  return r;
+}
+
+}  // namespace plumbline::verify

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+
+#include <plumbline/verify/detail/vector_access.h>
+#include <plumbline/verify/pair.h>
+
+/// Reading what samplers of other projects return, by the names that they use.
+namespace plumbline::verify {
+
+struct BsdfRecord;
+
+/// A colour or spectrum: a number, r g b, x y z, or anything with size() and [].
+template <class C>
+Channels to_channels(const C& c) {
+  Channels out;
+  const auto put = [&out](auto v) { out.value[out.count++] = static_cast<double>(v); };
+  if constexpr (std::is_arithmetic_v<C>) {
+    put(c);
+  } else if constexpr (requires { c.r, c.g, c.b; }) {
+    put(c.r), put(c.g), put(c.b);
+  } else if constexpr (HasXyz<C>) {
+    put(c.x), put(c.y), put(c.z);
+  } else if constexpr (requires { c.size(), c[0]; }) {
+    const auto size = static_cast<std::size_t>(c.size());
+    const std::size_t kept = std::min(size, Channels::kMost);
+    for (std::size_t i = 0; i < kept; ++i) {
+      put(c[static_cast<decltype(c.size())>(i * size / kept)]);
+    }
+  } else {
+    put(c[0]), put(c[1]), put(c[2]);
+  }
+  return out;
+}
+
+namespace detail {
+
+template <class R>
+Vec3 record_direction(const R& r) {
+  if constexpr (requires { r.wi; }) {
+    return to_vec3(r.wi);
+  } else if constexpr (requires { r.direction; }) {
+    return to_vec3(r.direction);
+  } else if constexpr (requires { r.dir; }) {
+    return to_vec3(r.dir);
+  } else if constexpr (requires { r.w; } && !HasXyz<R>) {
+    return to_vec3(r.w);
+  } else {
+    static_assert(Vector3<R>, "the record has no wi, direction, dir or w, and is no vector itself");
+    return to_vec3(r);
+  }
+}
+
+template <class R>
+Channels record_weight(const R& r) {
+  if constexpr (requires { r.weight; }) {
+    return to_channels(r.weight);
+  } else if constexpr (requires { r.throughput; }) {
+    return to_channels(r.throughput);
+  } else if constexpr (requires { r.value; }) {
+    return to_channels(r.value);
+  } else if constexpr (requires { r.f; }) {
+    return to_channels(r.f);
+  } else {
+    return {};
+  }
+}
+
+template <class R>
+double record_pdf(const R& r) {
+  if constexpr (requires { static_cast<double>(r.pdf_w); }) {
+    return static_cast<double>(r.pdf_w);
+  } else if constexpr (requires { static_cast<double>(r.pdf); }) {
+    return static_cast<double>(r.pdf);
+  } else {
+    return kNotApplicable;
+  }
+}
+
+template <class R>
+bool record_is_delta(const R& r) {
+  if constexpr (requires { static_cast<bool>(r.is_delta); }) {
+    return static_cast<bool>(r.is_delta);
+  } else if constexpr (requires { static_cast<bool>(r.delta); }) {
+    return static_cast<bool>(r.delta);
+  } else {
+    return false;
+  }
+}
+
+/// A record that says only that it is an atom states the probability as its pdf.
+template <class Record, class R>
+std::optional<Record> read_plain_record(const R& r) {
+  Record out;
+  out.wi = record_direction(r);
+  out.weight = record_weight(r);
+  out.pdf = record_pdf(r);
+  if constexpr (requires { static_cast<double>(r.mass); }) {
+    out.mass = static_cast<double>(r.mass);
+  } else if (record_is_delta(r)) {
+    out.mass = out.pdf;
+    out.pdf = 0;
+  }
+  return out;
+}
+
+}  // namespace detail
+
+/// A record, or an optional or pointer to one; empty stands for a failed sample.
+template <class Record = BsdfRecord, class R>
+std::optional<Record> read_record(const R& r) {
+  if constexpr (requires { static_cast<bool>(r), *r; }) {
+    if (!static_cast<bool>(r)) return std::nullopt;
+    return detail::read_plain_record<Record>(*r);
+  } else {
+    return detail::read_plain_record<Record>(r);
+  }
+}
+
+}  // namespace plumbline::verify

@@ -1,0 +1,230 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <plumbline/verify/detail/budget.h>
+#include <plumbline/verify/detail/domain.h>
+#include <plumbline/verify/detail/random.h>
+#include <plumbline/verify/detail/result.h>
+#include <plumbline/verify/detail/vector_access.h>
+
+namespace plumbline::verify {
+
+/// Random numbers of one sample, in [0, 1): as many as the pair says it uses.
+using Uniforms = std::array<double, 3>;
+
+/// A colour or spectrum as the checks keep it; a spectrum of more than 8 bands is thinned out to 8.
+struct Channels {
+  static constexpr std::size_t kMost = 8;
+  std::size_t count = 0;
+  std::array<double, kMost> value{};
+
+  double operator[](std::size_t i) const { return value[i]; }
+  friend bool operator==(const Channels&, const Channels&) = default;
+};
+
+/// What a sampler returned.
+struct PairSample {
+  Vec3 x{};                     ///< the point
+  double pdf = kNotApplicable;  ///< density that the record states; NaN: it states none
+  double mass = 0;              ///< > 0: an atom with this probability, not a point of a density
+  Channels weight;              ///< value/pdf that the record states; empty: it states none
+};
+
+/// One lobe of a mixture, as if it were the whole: with probability `probability` the sampler draws
+/// from it, so that pdf = Σ probability · lobe pdf.
+struct PairLobe {
+  std::string name;
+  double probability = 1;
+  std::function<std::optional<PairSample>(const Uniforms&)> sample;
+  std::function<double(const Vec3&)> pdf;
+};
+
+/// A point with probability mass.
+struct Atom {
+  Vec3 x{};
+  double mass = 0;
+};
+
+/// Something that a wrong pdf may have lost or gained as a factor, for the diagnosis: "cosθ at the
+/// light", "G1". Its inverse and its square are suspected too.
+struct Suspect {
+  std::string name;
+  std::function<double(const Vec3&)> value;
+  std::string remark_if_inverse = {};  ///< in place of "factor … too many in pdf?"
+  std::string only_of = {};            ///< "pdf" or "f·|cosθ|": of no use elsewhere
+  bool as_is = false;  ///< the ratio itself, not a factor; the remark then says what it means
+};
+
+/// `sample` with its `pdf` over a domain: what the contract checks are about. BSDFs, lights, light
+/// selection, warps and phase functions are all brought into this form.
+struct SamplingPair {
+  std::string name;
+  Domain domain = Domain::sphere();
+
+  /// How many of the uniform numbers the map uses: the Jacobian needs as many as the domain has
+  /// dimensions.
+  int numbers = 2;
+
+  /// Rounding unit of the code under test: 2^-24 for float, 2^-53 for double. Decides which uniform
+  /// numbers it gets and how closely it can be expected to agree with itself.
+  double epsilon = 0x1p-53;
+
+  /// nullopt: the sample was rejected.
+  std::function<std::optional<PairSample>(const Uniforms&)> sample;
+
+  /// In place of `sample`, for code that takes a random generator. The Jacobian is skipped then.
+  std::function<std::optional<PairSample>(Random&)> draw;
+
+  std::function<double(const Vec3&)> pdf;
+
+  /// What weight · pdf must equal: f·|cosθ| of a BSDF. Empty where the pair has no weight.
+  std::function<Channels(const Vec3&)> value;
+
+  std::vector<PairLobe> lobes;  ///< of a mixture; empty: one smooth map
+
+  /// Several u lead to the same point. With `preimages` the Jacobian check sums over them; without,
+  /// and without lobes, it is skipped, and says so.
+  bool many_to_one = false;
+  std::function<std::vector<Uniforms>(const Vec3&)> preimages;
+
+  std::vector<Atom> atoms;  ///< that are known beforehand; others are taken from the records
+
+  std::vector<Suspect> suspects;
+
+  /// One sample from the generator, by whichever of `sample` and `draw` there is.
+  std::optional<PairSample> next(Random& random) const;
+};
+
+namespace detail {
+
+template <class P>
+std::optional<PairSample> to_pair_sample(const P& point) {
+  PairSample s;
+  s.x = to_point(point);
+  return s;
+}
+
+template <class P>
+std::optional<PairSample> to_pair_sample(const std::optional<P>& point) {
+  if (!point) return std::nullopt;
+  return to_pair_sample(*point);
+}
+
+}  // namespace detail
+
+/// A pair from a plain map and its density, for warps and the like.
+///
+/// @tparam Point   of the user: a number, or a vector with x, y (, z) or operator[]
+/// @param sample   one or two uniform numbers of the point's scalar type, or a Random&, to a point
+/// or an
+///                 optional point
+/// @param pdf      of a point
+template <class Point, class Sample, class Pdf>
+SamplingPair make_pair(std::string name, Domain domain, Sample sample, Pdf pdf) {
+  using T = PointScalar<Point>;
+  SamplingPair pair;
+  pair.name = std::move(name);
+  pair.domain = std::move(domain);
+  pair.epsilon = std::is_same_v<T, float> ? 0x1p-24 : 0x1p-53;
+  if constexpr (requires(Random & random) { sample(random); }) {
+    pair.draw = [sample](Random& random) { return detail::to_pair_sample(sample(random)); };
+  } else if constexpr (requires(T u) { sample(u, u); }) {
+    pair.sample = [sample](const Uniforms& u) {
+      return detail::to_pair_sample(sample(static_cast<T>(u[0]), static_cast<T>(u[1])));
+    };
+  } else {
+    pair.numbers = 1;
+    pair.sample = [sample](const Uniforms& u) {
+      return detail::to_pair_sample(sample(static_cast<T>(u[0])));
+    };
+  }
+  pair.pdf = [pdf](const Vec3& x) { return static_cast<double>(pdf(from_point<Point>(x))); };
+  return pair;
+}
+
+/// How hard a sampling pair is looked at.
+struct ContractOptions {
+  std::uint64_t seed = 1;
+  ErrorBudget budget;
+
+  // Deterministic checks.
+  int points = 10'000;          ///< of the pointwise checks
+  int jacobian_points = 2'000;  ///< at most
+
+  /// |∫pdf + atoms + rejected − 1| that a pass allows. What rounding of the points may do to the
+  /// pdf is measured and added: nothing to speak of in double, 1e-3 for a lobe as narrow as float
+  /// resolves.
+  double mass_tolerance = 5e-5;
+
+  // Chi-square.
+  std::uint64_t first_look = 100'000;
+  std::uint64_t samples = 1'000'000;  ///< at the last look
+  int finest_bins = 4096;             ///< of about equal expected mass; coarser levels are merged
+
+  /// A pass proves that the relative deviation of the samples' density from the pdf, root mean
+  /// square over the 64 bins of the coarsest level, is at most this.
+  double deviation = 0.0125;
+};
+
+/// The whole battery on one sampling pair: record and weight pointwise, support, Jacobian,
+/// integral, chi-square. Results are named pair/check; a check that the pair has no ground for is
+/// left out, one that it asks to skip says so (inconclusive, as expected).
+///
+/// On failure the results carry a diagnosis: the observed/expected ratio is fitted against the
+/// usual suspects and the best is named with how well it fits, or none where none fits.
+std::vector<CheckResult> check_pair(const SamplingPair& pair, const ContractOptions& options = {});
+
+/// pdf · |∂x/∂u| = 1 by extrapolated differences, lobe by lobe. Points at a fold or seam of the
+/// map, where differences do not converge, are counted and left out. A pass bounds the relative
+/// error by 1e-4 for code in double and by 5e-3 for code in float, whose rounding differences
+/// magnify.
+///
+/// @source Ridders 1982 (Adv. Eng. Software 4:2)
+CheckResult check_jacobian(const SamplingPair& pair, const ContractOptions& options = {});
+
+/// The density that the record states equals `pdf`; weight · pdf equals `value`; the density is
+/// finite, not negative, and positive wherever the value is; points lie in the domain, also at the
+/// corners of the unit square. What rounding of the point itself may change is allowed for.
+std::vector<CheckResult> check_pointwise(const SamplingPair& pair,
+                                         const ContractOptions& options = {});
+
+/// ∫pdf + atoms + rejected share = 1, by adaptive cubature seeded from samples, with its error.
+CheckResult check_integral(const SamplingPair& pair, const ContractOptions& options = {});
+
+/// Chi-square test of samples against the integral of their density over bins that follow it.
+///
+/// The domain is halved at medians of pilot samples until each bin holds about the same mass, and
+/// the density is integrated over each bin by adaptive cubature with an error estimate. Bins are
+/// tested coarse to fine under one level, at growing sample counts. Pooled bins keep what is left
+/// over; a bin where the pdf is 0 fails on its first sample, as does any sample where the pdf is 0;
+/// rejected samples and atoms are categories of their own.
+///
+/// `fail` at the level of the error budget; `pass` if the deviation is proven below `deviation` and
+/// the masses add up; else `inconclusive`, also where the cubature cannot certify its error.
+CheckResult check_chi_square(const SamplingPair& pair, const ContractOptions& options = {});
+
+/// Chi-square test of a sampler of directions alone, for a user's own vector type. See
+/// `check_chi_square` of a pair in contract.h.
+///
+/// @param density  pdf_w [1/sr] of a unit direction
+/// @param sampler  two numbers uniform in [0, 1), in the scalar of the direction's type, to an
+/// optional
+///                 direction
+template <class Direction, class Density, class Sampler>
+CheckResult check_chi_square(std::string subject, Density density, Sampler sampler,
+                             const ContractOptions& options = {}) {
+  return check_chi_square(make_pair<Direction>(std::move(subject), Domain::sphere(),
+                                               std::move(sampler), std::move(density)),
+                          options);
+}
+
+}  // namespace plumbline::verify

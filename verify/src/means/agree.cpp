@@ -1,0 +1,56 @@
+#include <cmath>
+#include <stdexcept>
+
+#include <plumbline/verify/mean.h>
+
+#include "means/mean_judgement.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+MeanQuestion question_at(const MeanOptions& options, const LookPlan& plan, std::size_t look,
+                         double scale) {
+  MeanQuestion q;
+  q.reference = options.reference;
+  q.tolerance = options.tolerance * scale;
+  q.rounding_allowance = options.rounding_allowance * scale;
+  q.fail_level = plan.fail_level[look];
+  q.pass_level = plan.pass_level[look];
+  q.last_fail_level = plan.fail_level.back();
+  q.max_samples = 2 * plan.samples.back();
+  return q;
+}
+
+}  // namespace
+
+CheckResult check_agreement(const MeanOptions& options, const MomentSampler& a,
+                            const MomentSampler& b) {
+  if (!(options.tolerance > 0) || !std::isfinite(options.reference)) {
+    throw std::invalid_argument("agreement check '" + options.subject +
+                                "': needs a positive tolerance");
+  }
+  const LookPlan plan = plan_looks(options.n0, options.max_samples, options.budget);
+  Moments moments_a, moments_b;
+  CheckResult result;
+  std::uint64_t drawn = 0;
+  for (std::size_t look = 0; look < plan.samples.size(); ++look) {
+    moments_a.merge(a(drawn, plan.samples[look] - drawn));
+    moments_b.merge(b(drawn, plan.samples[look] - drawn));
+    drawn = plan.samples[look];
+    const double scale =
+        options.relative ? (std::abs(moments_a.mean()) + std::abs(moments_b.mean())) / 2 : 1.0;
+    result = judge_mean(question_at(options, plan, look, scale),
+                        difference(evidence(moments_a), evidence(moments_b)));
+    if (result.verdict != Verdict::inconclusive) break;
+  }
+  result.check = "agreement";
+  result.subject = options.subject;
+  result.expected = options.expected;
+  result.seed = options.seed;
+  result.figures.insert(result.figures.begin(),
+                        {{"mean of a", moments_a.mean()}, {"mean of b", moments_b.mean()}});
+  return result;
+}
+
+}  // namespace plumbline::verify

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+
+#include <plumbline/verify/detail/result.h>
+#include <plumbline/verify/mean.h>
+
+/// The verdict on one look at an estimate, shared by mean, agreement and image checks.
+namespace plumbline::verify {
+
+/// All in units of the quantity; levels as the look plan gives them.
+struct MeanQuestion {
+  double reference = 0;
+  double tolerance = 0;
+  double rounding_allowance = 0;
+  double exact_variance = kNotApplicable;  ///< of one sample
+  double fail_level = 0;                   ///< two-sided, at this look
+  double pass_level = 0;                   ///< one-sided, at this look
+  double last_fail_level = 0;              ///< two-sided, at the last look
+  std::uint64_t max_samples = 0;           ///< at the last look
+};
+
+struct Interval {
+  double low, high;
+};
+
+/// estimate ± quantile · error, each end moved outwards where the skewness of the estimate asks for
+/// it (Hall 1992), never inwards.
+///
+/// @param quantile  of the distribution of (estimate − truth)/error without skewness, > 0
+Interval skewed_interval(double estimate, double error, double skewness, double quantile);
+
+/// What is left of u = (estimate − claim)/error under the same correction, ≥ 0.
+double skewed_statistic(double u, double skewness);
+
+/// Interval of the true mean with `level` outside on each side: the wider of the normal one and the
+/// one corrected for skewness, at each end.
+Interval mean_interval(const Evidence& evidence, double level);
+
+/// Two-sided p-value of the hypothesis that the true mean is `reference`: the larger of the normal
+/// one and the one corrected for skewness.
+double mean_p_value(const Evidence& evidence, double reference);
+
+/// Fills in verdict, numbers and reasons; check, subject, expected and seed are left to the caller.
+CheckResult judge_mean(const MeanQuestion& question, const Evidence& evidence);
+
+}  // namespace plumbline::verify

@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <plumbline/verify/ratio.h>
+
+#include "distributions.h"
+#include "text.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+struct Interval {
+  double low = 0, high = 1;
+};
+
+/// @param level  one-sided, of each end
+Interval clopper_pearson(double hits, double trials, double level) {
+  Interval interval;
+  if (hits > 0) interval.low = beta_quantile(level, hits, trials - hits + 1);
+  if (hits < trials) interval.high = beta_quantile(1 - level, hits + 1, trials - hits);
+  return interval;
+}
+
+/// Two-sided p-value of the edge of the claim that is the least well kept.
+double claim_p_value(const ProportionOptions& o, double share, double hits, double trials) {
+  if (share > o.at_most && hits > 0) {
+    return std::min(1.0, 2 * binomial_at_least(hits, trials, o.at_most));
+  }
+  if (share < o.at_least && hits < trials) {
+    return std::min(1.0, 2 * binomial_at_least(trials - hits, trials, 1 - o.at_least));
+  }
+  return 1;
+}
+
+}  // namespace
+
+CheckResult check_proportion(const ProportionOptions& o, std::uint64_t hits, std::uint64_t trials) {
+  if (trials == 0 || hits > trials || !(o.at_least >= 0) || !(o.at_most <= 1) ||
+      !(o.at_least <= o.at_most)) {
+    throw std::invalid_argument("proportion check '" + o.subject +
+                                "': needs hits ≤ trials ≥ 1 and 0 ≤ at_least ≤ at_most ≤ 1");
+  }
+  const double k = static_cast<double>(hits), n = static_cast<double>(trials);
+  const Interval proven = clopper_pearson(k, n, o.budget.pass_level() / 2);
+  const Interval sure = clopper_pearson(k, n, o.budget.fail_level() / 2);
+  CheckResult r;
+  r.check = "proportion";
+  r.subject = o.subject;
+  r.expected = o.expected;
+  r.seed = o.seed;
+  r.samples = trials;
+  r.estimate = k / n;
+  r.interval_low = proven.low;
+  r.interval_high = proven.high;
+  r.p_value = claim_p_value(o, r.estimate, k, n);
+  r.leaned_on = "exact binomial interval";
+  r.figures = {{"hits", k}, {"at least", o.at_least}, {"at most", o.at_most}};
+  if (sure.low > o.at_most) {
+    r.verdict = Verdict::fail;
+    r.reason =
+        "the share is at least " + number(sure.low) + ", the claim is at most " + number(o.at_most);
+  } else if (sure.high < o.at_least) {
+    r.verdict = Verdict::fail;
+    r.reason = "the share is at most " + number(sure.high) + ", the claim is at least " +
+               number(o.at_least);
+  } else if (proven.low >= o.at_least && proven.high <= o.at_most) {
+    r.verdict = Verdict::pass;
+  } else {
+    r.reason = "the interval straddles the claim";
+  }
+  return r;
+}
+
+}  // namespace plumbline::verify

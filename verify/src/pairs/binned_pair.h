@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <plumbline/verify/pair.h>
+
+#include "pairs/bin_tree.h"
+#include "pairs/cubature.h"
+
+/// A sampling pair cut into bins: what the pdf expects of each, and what the sampler put there.
+namespace plumbline::verify {
+
+/// Integral of a function of the domain that the pair's samples are about proportional to: its
+/// f·|cosθ|.
+CubatureResult integrate_over_domain(const SamplingPair& pair,
+                                     const std::function<double(const Vec3&)>& function,
+                                     int finest_bins, double error, std::uint64_t seed);
+
+struct AtomCount {
+  Atom atom;
+  std::uint64_t drawn = 0;
+};
+
+struct BinCounts {
+  std::vector<std::uint64_t> bins;
+  std::vector<AtomCount> atoms;  ///< those of the pair, then those met on the way
+  std::uint64_t rejected = 0;
+  std::uint64_t stray = 0;  ///< samples outside the domain or where the density is 0 all around
+  std::uint64_t not_finite =
+      0;  ///< samples or densities at samples that are not finite, or negative
+  std::uint64_t drawn = 0;
+  std::vector<Vec3> strays;           ///< the first of them
+  std::optional<Vec3> not_finite_at;  ///< an example
+};
+
+class BinnedPair {
+ public:
+  /// Draws pilot samples, cuts the domain where they fall, and integrates the density over each
+  /// bin. The bins of a discrete set are its points.
+  ///
+  /// @param finest_bins  about how many
+  /// @param mass_error   error of the total mass to reach
+  BinnedPair(const SamplingPair& pair, int finest_bins, double mass_error, std::uint64_t seed);
+
+  /// Draws more samples and counts them.
+  void draw(std::uint64_t count);
+
+  const SamplingPair& pair() const { return pair_; }
+  int depth() const { return depth_; }  ///< 2^depth finest bins; merged in pairs, coarser ones
+  const CubatureResult& expected() const { return expected_; }  ///< mass per finest bin
+  const BinCounts& counts() const { return counts_; }
+
+  /// By how much, relative to itself and on average over the samples, the density changes where its
+  /// point is rounded: what rounding may do to the mass. About epsilon, and far more for narrow
+  /// lobes in float.
+  double rounding() const { return rounding_; }
+
+  /// Middle of a bin of a depth, in the domain.
+  Vec3 center(int depth, std::size_t bin) const;
+
+ private:
+  void integrate_density(double mass_error, std::uint64_t seed);
+  void tabulate_discrete();
+  void measure_rounding(std::uint64_t seed);
+  void count_atom(const PairSample& sample);
+  void count_point(const Vec3& x);
+  std::size_t locate(const Vec3& x) const;
+  bool is_stray(const Vec3& x) const;
+
+  const SamplingPair& pair_;
+  Random random_;
+  int depth_;
+  double rounding_ = 0;
+  std::optional<BinTree> tree_;
+  CubatureResult expected_;
+  BinCounts counts_;
+};
+
+}  // namespace plumbline::verify
