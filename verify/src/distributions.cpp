@@ -1,5 +1,6 @@
 #include "distributions.h"
 
+#include <algorithm>
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
@@ -47,6 +48,20 @@ double beta_quantile(double probability, double a, double b) {
 double binomial_at_least(double hits, double trials, double probability) {
   // P(X ≥ k) = I_p(k, n − k + 1).
   return bm::ibeta(hits, trials - hits + 1, probability);
+}
+
+double binomial_two_sided(double hits, double trials, double probability) {
+  if (!(probability > 0)) return hits > 0 ? 0.0 : 1.0;
+  if (!(probability < 1)) return hits < trials ? 0.0 : 1.0;
+  const double above = hits > 0 ? binomial_at_least(hits, trials, probability) : 1.0;
+  const double below =
+      hits < trials ? binomial_at_least(trials - hits, trials, 1 - probability) : 1.0;
+  return std::min(1.0, 2 * std::min(above, below));
+}
+
+double pearson_tail(double x, double degrees, double sum_of_inverse_expected) {
+  const double scale = 1 + sum_of_inverse_expected / (2 * degrees);
+  return chi_square_tail(x / scale, degrees / scale);
 }
 
 double noncentrality_limit(double x, double degrees, double level) {

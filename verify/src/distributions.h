@@ -27,6 +27,16 @@ double beta_quantile(double probability, double a, double b);
 /// P(X >= hits), binomial.
 double binomial_at_least(double hits, double trials, double probability);
 
+/// Probability, of both sides, to be as far from its mean as `hits` is: twice the smaller tail of
+/// the binomial distribution, at most 1. Exact where little is expected.
+double binomial_two_sided(double hits, double trials, double probability);
+
+/// P(X > x) for Pearson's statistic of counts that are Poisson-distributed: its variance is
+/// 2 degrees + Σ 1/expected, which a scaled chi-square distribution takes up.
+///
+/// @source Satterthwaite 1946 (Biometrics Bulletin 2:6)
+double pearson_tail(double x, double degrees, double sum_of_inverse_expected);
+
 /// Upper confidence limit of the noncentrality of a chi-square variable seen at x: the λ for which
 /// P(X ≤ x | λ) = level; 0 where even λ = 0 makes x improbably small.
 double noncentrality_limit(double x, double degrees, double level);

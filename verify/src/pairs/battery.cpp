@@ -11,7 +11,6 @@
 #include "pairs/chi_square_look.h"
 #include "pairs/integral_check.h"
 #include "pairs/jacobian.h"
-#include "pairs/mass_balance.h"
 #include "pairs/pointwise.h"
 
 namespace plumbline::verify {
@@ -67,7 +66,7 @@ PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options)
   if (jacobian.result.verdict == Verdict::fail) cause.consider(pair, jacobian.evidence);
   results.push_back(std::move(jacobian.result));
 
-  BinnedPair binned(pair, options.finest_bins, options.mass_tolerance / 2, options.seed);
+  BinnedPair binned(pair, options);
   const RejectedShare rejected = measure_rejected(pair, options.seed);
   CheckResult chi_square = run_chi_square(options, binned, rejected);
   results.push_back(judge_integral(options, binned, rejected));

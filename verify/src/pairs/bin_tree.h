@@ -1,19 +1,18 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
-#include "pairs/cubature.h"
+#include "pairs/mass_integral.h"
 
 namespace plumbline::verify {
 
 /// Bins of the unit square that follow a density: halved again and again at the median of pilot
 /// points, alternating between the two dimensions. All nodes of one depth are bins of about equal
-/// mass.
+/// mass. Points in one place, or on a line, leave bins without area between them.
 class BinTree {
  public:
-  /// @param points  pilot samples; reordered so that each cell's are in a row
+  /// @param points  pilot samples; reordered
   /// @param depth   2^depth finest bins
   /// @param dimension  1: only the first coordinate is cut
   BinTree(std::vector<Point2>& points, int depth, int dimension);
@@ -32,9 +31,10 @@ class BinTree {
 
   const Box& box(std::size_t bin) const { return boxes_[bin]; }
 
-  /// A bin as one cell with its pilot points, or as two where the break line runs through.
-  std::vector<Cell> cells(std::size_t bin, std::optional<double> break_line,
-                          std::vector<Point2>& points) const;
+  /// The bins as cells, cut where lines run through along which the density may break.
+  ///
+  /// @param breaks  per dimension, ascending; left out in a bin that they cut into too many pieces
+  std::vector<Cell> cells(const std::array<std::vector<double>, 2>& breaks) const;
 
  private:
   std::size_t cut_dimension(int level) const {
@@ -45,17 +45,6 @@ class BinTree {
   int depth_, dimension_;
   std::vector<double> splits_;  // heap order, root at 1
   std::vector<Box> boxes_;
-  std::vector<std::size_t> first_;  // of a bin's points; one more than bins
 };
-
-/// A cell halved until no piece has its points in one half of it, or in two clusters: what they
-/// crowd around may be narrower than any rule on the whole cell sees. Appended to `cells`.
-void add_cells_of_even_points(const Cell& cell, std::vector<Point2>& points,
-                              std::vector<Cell>& cells);
-
-/// A cell cut around clusters of its pilot points and then in growing steps to its edges, so that a
-/// support that ends somewhere inside is not missed. Appended to `cells`.
-void add_cells_around_points(const Cell& cell, std::vector<Point2>& points,
-                             std::vector<Cell>& cells);
 
 }  // namespace plumbline::verify

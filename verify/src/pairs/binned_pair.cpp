@@ -8,10 +8,13 @@ namespace plumbline::verify {
 
 namespace {
 
-// With 4096 bins, a corner of the support that holds 5e-5 of the mass is missed by all pilot
-// samples twice in a million times; a quarter of them missed one of 3.5e-5 in one run of ten.
-constexpr std::size_t kPilotsPerBin = 64;
-constexpr std::uint64_t kMaxEvaluations = 6'000'000;
+// Pilot samples in a bin, on average: few, since a bin need not hold just what its neighbours do.
+constexpr std::size_t kPilotsPerBin = 16;
+constexpr std::size_t kMostDrawn = 1 << 20;
+// Half of the strict promise of the integral check, see kStrictPromise.
+constexpr double kMassError = 2.5e-5;
+// A bin as narrow as that around a sixteenth of its depth's share of the samples is a line.
+constexpr double kLine = 1e-11;
 // A float direction that rounding put outside the support is within a few 2^-24 of it.
 constexpr double kRoundingDistance = 2e-6;
 // Farther than this from the domain is not rounding either.
@@ -27,15 +30,21 @@ bool same_point(const Vec3& a, const Vec3& b) {
   return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])}) <= 1e-5;
 }
 
-std::vector<Point2> draw_pilot(const SamplingPair& pair, std::size_t count, std::uint64_t seed) {
-  Random random(seed, 1);
-  std::vector<Point2> points;
-  points.reserve(count);
+/// Samples with a density, on the square.
+OwnSamples draw_own(const SamplingPair& pair, std::size_t count, Random& random) {
+  OwnSamples points;
   for (std::size_t i = 0; i < count; ++i) {
     const auto s = pair.next(random);
     if (s && s->mass == 0 && finite(s->x)) points.push_back(pair.domain.chart().to_square(s->x));
   }
   return points;
+}
+
+/// How many to draw so that about `wanted` are neither rejected nor atoms.
+std::size_t draws_for(const SamplingPair& pair, std::size_t wanted, Random& random) {
+  constexpr std::size_t kTries = 4096;
+  const std::size_t used = draw_own(pair, kTries, random).size();
+  return std::clamp(wanted * kTries / std::max<std::size_t>(used, 1), wanted, kMostDrawn);
 }
 
 int log2_of(std::size_t bins) {
@@ -44,46 +53,41 @@ int log2_of(std::size_t bins) {
   return depth;
 }
 
-/// Cells follow the pilot points where the edge of a support may run or the points are uneven, and
-/// are whole bins elsewhere.
-///
-/// @param promise_mass  whether the function integrates to the share of points in a cell
-CubatureResult integrate_over(const BinTree& tree, const Chart& chart,
-                              const std::function<double(const Vec3&)>& function,
-                              std::vector<Point2>& pilot, bool promise_mass, double error) {
-  const auto on_square = [&](const Point2& p) {
+MassIntegral integrate_over(const BinTree& tree, const SamplingPair& pair,
+                            const std::function<double(const Vec3&)>& function, std::size_t own,
+                            const ContractOptions& options, double error) {
+  const Chart& chart = pair.domain.chart();
+  Random random(options.seed, 20);
+  MassQuestion question;
+  question.integrand = [&](const Point2& p) {
     return chart.element(p) * function(chart.from_square(p));
   };
-  std::vector<Cell> cells;
-  for (std::size_t bin = 0; bin < tree.bins(); ++bin) {
-    for (const Cell& cell : tree.cells(bin, chart.break_line(), pilot)) {
-      const bool has_points = cell.first < cell.last;
-      if (has_points && shows_zero(on_square, cell.box)) {
-        add_cells_around_points(cell, pilot, cells);
-      } else {
-        add_cells_of_even_points(cell, pilot, cells);
-      }
-    }
-  }
-  for (Cell& cell : cells) {
-    if (!promise_mass) cell.first = cell.last = 0;
-  }
-  return integrate(on_square, cells, pilot, tree.bins(), error, kMaxEvaluations);
+  question.density = [&](const Point2& p) {
+    return chart.element(p) * pair.pdf(chart.from_square(p));
+  };
+  question.draw_own = [&](std::size_t count) { return draw_own(pair, count, random); };
+  question.bin_at = [&](const Point2& p) { return tree.locate(p); };
+  question.bins = tree.bins();
+  question.dimension = pair.domain.dimension();
+  question.target = error;
+  question.max_evaluations = options.evaluations;
+  question.own = own;
+  question.seed = options.seed;
+  return integrate_mass(question, tree.cells(pair.domain.breaks()));
 }
 
 }  // namespace
 
-BinnedPair::BinnedPair(const SamplingPair& pair, int finest_bins, double mass_error,
-                       std::uint64_t seed)
+BinnedPair::BinnedPair(const SamplingPair& pair, const ContractOptions& options)
     : pair_(pair),
-      random_(seed, 2),
+      random_(options.seed, 2),
       depth_(log2_of(pair.domain.size() > 0 ? pair.domain.size()
-                                            : static_cast<std::size_t>(finest_bins))) {
+                                            : static_cast<std::size_t>(options.finest_bins))) {
   if (pair.domain.size() > 0) {
     tabulate_discrete();
   } else {
-    integrate_density(mass_error, seed);
-    measure_rounding(seed);
+    integrate_density(options);
+    measure_rounding(options.seed);
   }
   counts_.bins.assign(std::size_t{1} << depth_, 0);
   for (const Atom& atom : pair.atoms) counts_.atoms.push_back({atom, 0});
@@ -91,7 +95,7 @@ BinnedPair::BinnedPair(const SamplingPair& pair, int finest_bins, double mass_er
 
 void BinnedPair::tabulate_discrete() {
   expected_.value.assign(std::size_t{1} << depth_, 0.0);
-  expected_.error.assign(std::size_t{1} << depth_, 0.0);
+  expected_.variance.assign(std::size_t{1} << depth_, 0.0);
   for (std::size_t i = 0; i < pair_.domain.size(); ++i) {
     const double probability = pair_.pdf({static_cast<double>(i), 0, 0});
     expected_.value[i] = probability;
@@ -99,23 +103,39 @@ void BinnedPair::tabulate_discrete() {
     expected_.finite = expected_.finite && std::isfinite(probability) && probability >= 0;
   }
   // Each probability is rounded in proportion to itself; two roundings each.
-  expected_.total_error = 2 * pair_.epsilon * expected_.total;
+  expected_.variance_of_total = std::pow(2 * pair_.epsilon * expected_.total, 2);
   expected_.evaluations = pair_.domain.size();
 }
 
-void BinnedPair::integrate_density(double mass_error, std::uint64_t seed) {
-  std::vector<Point2> pilot = draw_pilot(pair_, kPilotsPerBin << depth_, seed);
+void BinnedPair::integrate_density(const ContractOptions& options) {
+  Random random(options.seed, 1);
+  const std::size_t own = draws_for(pair_, kPilotsPerBin << depth_, random);
+  std::vector<Point2> pilot = draw_own(pair_, own, random);
   tree_.emplace(pilot, depth_, pair_.domain.dimension());
-  expected_ = integrate_over(*tree_, pair_.domain.chart(), pair_.pdf, pilot, true, mass_error);
+  measure_lines(pilot);
+  expected_ = integrate_over(*tree_, pair_, pair_.pdf, own, options, kMassError);
 }
 
-CubatureResult integrate_over_domain(const SamplingPair& pair,
-                                     const std::function<double(const Vec3&)>& function,
-                                     int finest_bins, double error, std::uint64_t seed) {
-  const int depth = log2_of(static_cast<std::size_t>(finest_bins));
-  std::vector<Point2> pilot = draw_pilot(pair, kPilotsPerBin << depth, seed);
+void BinnedPair::measure_lines(const std::vector<Point2>& pilot) {
+  std::size_t on_lines = 0;
+  for (const Point2& p : pilot) {
+    const Box& box = tree_->box(tree_->locate(p));
+    const bool narrow = box.high[0] - box.low[0] < kLine ||
+                        (pair_.domain.dimension() == 2 && box.high[1] - box.low[1] < kLine);
+    on_lines += narrow ? 1 : 0;
+  }
+  on_lines_ = static_cast<double>(on_lines) / std::max(1.0, static_cast<double>(pilot.size()));
+}
+
+MassIntegral integrate_over_domain(const SamplingPair& pair,
+                                   const std::function<double(const Vec3&)>& function,
+                                   const ContractOptions& options, double error) {
+  const int depth = log2_of(static_cast<std::size_t>(options.finest_bins));
+  Random random(options.seed, 19);
+  const std::size_t own = draws_for(pair, kPilotsPerBin << depth, random);
+  std::vector<Point2> pilot = draw_own(pair, own, random);
   const BinTree tree(pilot, depth, pair.domain.dimension());
-  return integrate_over(tree, pair.domain.chart(), function, pilot, false, error);
+  return integrate_over(tree, pair, function, own, options, error);
 }
 
 void BinnedPair::measure_rounding(std::uint64_t seed) {
@@ -201,6 +221,24 @@ Vec3 BinnedPair::center(int depth, std::size_t bin) const {
   const Box& box = tree_->box(fine);
   return pair_.domain.chart().from_square(
       {(box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2});
+}
+
+std::vector<Vec3> BinnedPair::nodes(int depth, std::size_t bin) const {
+  if (!tree_) return {center(depth, bin)};
+  constexpr int kPerSide = 4;
+  const int finer = depth_ - depth;
+  const std::size_t pieces = std::size_t{1} << finer, first = bin << finer;
+  std::vector<Vec3> nodes;
+  for (int i = 0; i < kPerSide * kPerSide; ++i) {
+    // Of a coarse bin, finest bins in turn: they hold equal shares of the samples.
+    const std::size_t fine = first + static_cast<std::size_t>(i) * pieces / (kPerSide * kPerSide);
+    const Box& box = tree_->box(fine);
+    const double s = (i % kPerSide + 0.5) / kPerSide, t = (i / kPerSide + 0.5) / kPerSide;
+    nodes.push_back(
+        pair_.domain.chart().from_square({box.low[0] + s * (box.high[0] - box.low[0]),
+                                          box.low[1] + t * (box.high[1] - box.low[1])}));
+  }
+  return nodes;
 }
 
 }  // namespace plumbline::verify

@@ -8,16 +8,17 @@
 #include <plumbline/verify/pair.h>
 
 #include "pairs/bin_tree.h"
-#include "pairs/cubature.h"
 
 /// A sampling pair cut into bins: what the pdf expects of each, and what the sampler put there.
 namespace plumbline::verify {
 
-/// Integral of a function of the domain that the pair's samples are about proportional to: its
-/// f·|cosθ|.
-CubatureResult integrate_over_domain(const SamplingPair& pair,
-                                     const std::function<double(const Vec3&)>& function,
-                                     int finest_bins, double error, std::uint64_t seed);
+/// Integral of a function of the domain, with samples of the pair as nodes where it is not smooth:
+/// the pair's f·|cosθ|.
+///
+/// @param error  of the integral at 99.9 %, after which nothing more is spent
+MassIntegral integrate_over_domain(const SamplingPair& pair,
+                                   const std::function<double(const Vec3&)>& function,
+                                   const ContractOptions& options, double error);
 
 struct AtomCount {
   Atom atom;
@@ -39,18 +40,16 @@ struct BinCounts {
 class BinnedPair {
  public:
   /// Draws pilot samples, cuts the domain where they fall, and integrates the density over each
-  /// bin. The bins of a discrete set are its points.
-  ///
-  /// @param finest_bins  about how many
-  /// @param mass_error   error of the total mass to reach
-  BinnedPair(const SamplingPair& pair, int finest_bins, double mass_error, std::uint64_t seed);
+  /// bin: as closely as the tests can tell, whatever a pass allows. The bins of a discrete set are
+  /// its points.
+  BinnedPair(const SamplingPair& pair, const ContractOptions& options);
 
   /// Draws more samples and counts them.
   void draw(std::uint64_t count);
 
   const SamplingPair& pair() const { return pair_; }
   int depth() const { return depth_; }  ///< 2^depth finest bins; merged in pairs, coarser ones
-  const CubatureResult& expected() const { return expected_; }  ///< mass per finest bin
+  const MassIntegral& expected() const { return expected_; }  ///< mass per finest bin
   const BinCounts& counts() const { return counts_; }
 
   /// By how much, relative to itself and on average over the samples, the density changes where its
@@ -61,10 +60,18 @@ class BinnedPair {
   /// Middle of a bin of a depth, in the domain.
   Vec3 center(int depth, std::size_t bin) const;
 
+  /// Points of a bin of a depth, evenly over the square: 16, or the one of a discrete set.
+  std::vector<Vec3> nodes(int depth, std::size_t bin) const;
+
+  /// Share of the pilot samples that fell into bins so narrow that they lie on a line or in a
+  /// point.
+  double on_lines() const { return on_lines_; }
+
  private:
-  void integrate_density(double mass_error, std::uint64_t seed);
+  void integrate_density(const ContractOptions& options);
   void tabulate_discrete();
   void measure_rounding(std::uint64_t seed);
+  void measure_lines(const std::vector<Point2>& pilot);
   void count_atom(const PairSample& sample);
   void count_point(const Vec3& x);
   std::size_t locate(const Vec3& x) const;
@@ -73,9 +80,9 @@ class BinnedPair {
   const SamplingPair& pair_;
   Random random_;
   int depth_;
-  double rounding_ = 0;
+  double rounding_ = 0, on_lines_ = 0;
   std::optional<BinTree> tree_;
-  CubatureResult expected_;
+  MassIntegral expected_;
   BinCounts counts_;
 };
 

@@ -6,7 +6,7 @@
 #include <plumbline/verify/pair.h>
 
 #include "pairs/binned_pair.h"
-#include "pairs/mass_balance.h"
+#include "pairs/rejected_share.h"
 
 namespace plumbline::verify {
 
@@ -15,16 +15,18 @@ std::string place(const Vec3& x);
 
 /// Expected and observed counts of the bins of one depth.
 struct BinTable {
-  std::vector<double> expected, observed;
+  std::vector<double> expected, variance, observed;  ///< variance: of the expected
 };
 BinTable table_of(const BinnedPair& pair, int depth);
 
-/// Chi-square statistic over the bins of one depth.
+/// Pearson's test over the bins of one depth.
 struct LevelTest {
   int depth = 0;
-  double statistic = 0, degrees = 0, p_value = 1;
+  double statistic = 0;  ///< without the error of the expected masses: for the bound of a pass
+  double degrees = 0, p_value = 1;
   std::size_t worst_bin = 0;
   double worst_pull = 0;
+  double unresolved = 0;  ///< share of the mass in bins whose mass is not known well enough
 };
 
 /// One look at the counts: all depths under one level, then the verdict.
@@ -41,9 +43,11 @@ class ChiSquareLook {
 
   const ContractOptions& options_;
   const BinnedPair& pair_;
-  MassBalance mass_;
+  double excess_ = 0, excess_error_ = 0;
   std::vector<LevelTest> levels_;
   double level_ = 0;  // of one test
+  double atoms_p_ = 1;
+  std::size_t worst_atom_ = 0;
   double bound_ = 0, detectable_ = 0;
 };
 

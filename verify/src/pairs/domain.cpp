@@ -6,6 +6,7 @@
 
 #include <plumbline/verify/detail/domain.h>
 
+#include "pairs/direction_charts.h"
 #include "vec3.h"
 
 namespace plumbline::verify {
@@ -100,52 +101,6 @@ class TriangleChart final : public Chart {
   }
 };
 
-/// Square = ((1 − z)/2, φ/2π) on the sphere, and the same stretched on a hemisphere.
-class DirectionChart final : public Chart {
- public:
-  /// Of (1 − z)/2, the part that the domain covers.
-  DirectionChart(double first, double last) : first_(first), extent_(last - first) {}
-
-  Vec3 from_square(const Point2& p) const override {
-    const double half = first_ + extent_ * p[0];  // (1 − z)/2
-    const double phi = 2 * kPi * p[1];
-    const double radius = 2 * std::sqrt(half * (1 - half));  // √(1 − z²)
-    return {radius * std::cos(phi), radius * std::sin(phi), 1 - 2 * half};
-  }
-  Point2 to_square(const Vec3& w) const override {
-    // (1 − z)/2 from x and y: near the poles float directions keep no digits of it in z.
-    const double radius2 = w[0] * w[0] + w[1] * w[1];
-    const double small = radius2 / (2 * (1 + std::abs(w[2])));
-    const double half = w[2] >= 0 ? small : 1 - small;
-    const double phi = std::atan2(w[1], w[0]) / (2 * kPi);
-    return {std::clamp((half - first_) / extent_, 0.0, 1.0), phi < 0 ? phi + 1 : phi};
-  }
-  double element(const Point2&) const override { return 4 * kPi * extent_; }
-  std::optional<double> break_line() const override {
-    return extent_ < 1 ? std::nullopt : std::optional(0.5);
-  }
-
-  Vec3 near(const Vec3& w, double distance, double angle) const override {
-    const Vec3 axis = std::abs(w[2]) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
-    const Vec3 s = normalized(cross(axis, w));
-    const Vec3 t = cross(w, s);
-    Vec3 moved;
-    for (std::size_t i = 0; i < 3; ++i) {
-      moved[i] = w[i] + distance * (std::cos(angle) * s[i] + std::sin(angle) * t[i]);
-    }
-    return normalized(moved);
-  }
-  double distance(const Vec3& w) const override {
-    const double length_error = std::abs(std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) - 1);
-    // |z| beyond the horizon, for a hemisphere.
-    const double beyond = outside(w[2], 1 - 2 * (first_ + extent_), 1 - 2 * first_);
-    return std::max(length_error, extent_ < 1 ? beyond : 0.0);
-  }
-
- private:
-  double first_, extent_;
-};
-
 class SurfaceChart final : public Chart {
  public:
   SurfaceChart(std::function<Vec3(const Point2&)> from_square,
@@ -171,6 +126,15 @@ class SurfaceChart final : public Chart {
   std::function<Point2(const Vec3&)> to_;
   std::function<double(const Point2&)> area_;
 };
+
+/// Between equal parts of [0, 1].
+std::vector<double> even_lines(std::size_t parts) {
+  std::vector<double> lines;
+  for (std::size_t i = 1; i < parts; ++i) {
+    lines.push_back(static_cast<double>(i) / static_cast<double>(parts));
+  }
+  return lines;
+}
 
 }  // namespace
 
@@ -198,17 +162,51 @@ Domain Domain::disk(double radius) {
 
 Domain Domain::triangle() { return {"triangle", 2, std::make_shared<TriangleChart>()}; }
 
-Domain Domain::sphere() {
-  Domain domain("sphere", 2, std::make_shared<DirectionChart>(0, 1));
+Domain Domain::of_directions(std::string name, std::shared_ptr<const Chart> chart) {
+  Domain domain(std::move(name), 2, std::move(chart));
   domain.directions_ = true;
   return domain;
 }
 
+Domain Domain::sphere() {
+  return of_directions("sphere", direction_chart(0, 1)).with_breaks({0.5});
+}
+
 Domain Domain::hemisphere(bool upper) {
-  Domain domain(
-      upper ? "upper hemisphere" : "lower hemisphere", 2,
-      upper ? std::make_shared<DirectionChart>(0, 0.5) : std::make_shared<DirectionChart>(0.5, 1));
-  domain.directions_ = true;
+  return upper ? of_directions("upper hemisphere", direction_chart(0, 0.5))
+               : of_directions("lower hemisphere", direction_chart(0.5, 1));
+}
+
+Domain Domain::equirectangular(std::size_t columns, std::size_t rows, const Vec3& up,
+                               const Vec3& start) {
+  const bool at_right_angles = std::abs(length(up) - 1) < 1e-6 &&
+                               std::abs(length(start) - 1) < 1e-6 &&
+                               std::abs(dot(up, start)) < 1e-6;
+  if (columns == 0 || rows == 0 || !at_right_angles) {
+    throw std::invalid_argument(
+        "Domain::equirectangular: needs pixels, and unit vectors at right angles");
+  }
+  return of_directions("latitude-longitude map", latitude_chart(up, start))
+      .with_breaks(even_lines(rows), even_lines(columns));
+}
+
+Domain Domain::octahedral(std::size_t pixels_per_side) {
+  if (pixels_per_side == 0) throw std::invalid_argument("Domain::octahedral: needs pixels");
+  return of_directions("octahedral map", octahedral_chart())
+      .with_breaks({0.5}, {0.5})  // where the octahedron's edges run
+      .with_breaks(even_lines(pixels_per_side), even_lines(pixels_per_side));
+}
+
+Domain Domain::with_breaks(const std::vector<double>& first,
+                           const std::vector<double>& second) const {
+  Domain domain = *this;
+  const std::array<const std::vector<double>*, 2> added{&first, &second};
+  for (std::size_t d = 0; d < 2; ++d) {
+    std::vector<double>& lines = domain.breaks_[d];
+    lines.insert(lines.end(), added[d]->begin(), added[d]->end());
+    std::sort(lines.begin(), lines.end());
+    lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+  }
   return domain;
 }
 

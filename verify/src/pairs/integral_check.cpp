@@ -8,56 +8,88 @@ namespace plumbline::verify {
 
 namespace {
 
-// Samples that show atoms and rejections where the chi-square check draws none.
+// Samples that show atoms where the chi-square check draws none.
 constexpr std::uint64_t kProbes = 10'000;
+// What a pass promises where quadrature reaches it, and where it does not.
+constexpr double kStrictPromise = 5e-5, kLoosePromise = 1e-3;
+
+std::string advice_for(const SamplingPair& pair, const MassBalance& mass, double level) {
+  if (mass.rejected.error(level) > mass.integral.error(level)) {
+    return "let `sample` take two numbers instead of three or a generator, expose the lobes, or "
+           "state a larger mass_tolerance";
+  }
+  if (pair.domain.directions()) {
+    return "state where the density jumps (Domain::equirectangular, Domain::octahedral, "
+           "with_breaks), allow more `evaluations`, or state a larger mass_tolerance";
+  }
+  return "state where the density jumps (Domain::with_breaks), allow more `evaluations`, or state "
+         "a "
+         "larger mass_tolerance";
+}
 
 }  // namespace
 
+MassBalance balance_mass(const BinnedPair& pair, const RejectedShare& rejected) {
+  MassBalance balance{pair.expected(), 0, rejected};
+  for (const AtomCount& a : pair.counts().atoms) balance.atoms += a.atom.mass;
+  return balance;
+}
+
+double mass_tolerance(const ContractOptions& options, const BinnedPair& pair) {
+  return options.mass_tolerance.value_or(kStrictPromise) + pair.rounding();
+}
+
 CheckResult judge_integral(const ContractOptions& options, const BinnedPair& binned,
                            const RejectedShare& rejected) {
-  const MassBalance mass = balance_mass(binned, rejected, options.budget.fail_level());
-  const double tolerance = options.mass_tolerance + binned.rounding();
+  const MassBalance mass = balance_mass(binned, rejected);
+  const double pass_level = options.budget.pass_level(), fail_level = options.budget.fail_level();
+  const double known_to = mass.error(pass_level);
   CheckResult r;
   r.check = "integral";
   r.subject = binned.pair().name + "/integral";
   r.seed = options.seed;
   r.estimate = 1 + mass.excess();
   r.reference = 1;
-  r.tolerance = tolerance;
-  r.bound = std::abs(mass.excess()) + mass.error();
-  r.detectable = tolerance + 2 * mass.error();
-  r.interval_low = r.estimate - mass.error();
-  r.interval_high = r.estimate + mass.error();
+  r.bound = std::abs(mass.excess()) + known_to;
+  r.tolerance = mass_tolerance(options, binned);
+  if (!options.mass_tolerance && !(r.bound <= r.tolerance)) {
+    r.tolerance = kLoosePromise + binned.rounding();
+  }
+  r.detectable = mass_tolerance(options, binned) + 2 * mass.error(fail_level);
+  r.interval_low = r.estimate - known_to;
+  r.interval_high = r.estimate + known_to;
   r.samples = binned.counts().drawn;
-  r.leaned_on = mass.rejected.value == 0 ? "error estimate of the cubature"
-                : mass.rejected.measured
-                    ? "error estimates of the cubature and of the rejected area"
-                    : "error estimate of the cubature, counted rejections";
-  r.figures = {{"integral of the pdf", mass.integral},
-               {"error of the integral", mass.integral_error},
+  r.leaned_on = "random nodes, empirical Bernstein bound";
+  r.figures = {{"integral of the pdf", mass.integral.total},
+               {"error of the integral", mass.integral.error(pass_level)},
                {"atoms", mass.atoms},
                {"rejected share", mass.rejected.value},
+               {"error of the rejected share", mass.rejected.error(pass_level)},
                {"rounding", binned.rounding()},
-               {"evaluations", static_cast<double>(binned.expected().evaluations)}};
-  if (!binned.expected().finite || !std::isfinite(r.estimate)) {
+               {"largest unseen spike, share of the domain", mass.integral.unseen},
+               {"evaluations", static_cast<double>(mass.integral.evaluations)}};
+  if (!mass.integral.finite || !std::isfinite(r.estimate)) {
     r.verdict = Verdict::fail;
     r.reason = "the pdf is not finite somewhere";
-  } else if (!(std::abs(mass.excess()) - mass.error() <= tolerance)) {
+  } else if (!(std::abs(mass.excess()) - mass.error(fail_level) <=
+               mass_tolerance(options, binned))) {
     r.verdict = Verdict::fail;
-    r.reason = "∫pdf = " + number(mass.integral);
+    r.reason = "∫pdf = " + number(mass.integral.total);
     if (mass.atoms > 0) r.reason += ", atoms add " + number(mass.atoms);
-    if (mass.rejected.value > 0)
+    if (mass.rejected.value > 0) {
       r.reason += ", rejected samples add " + number(mass.rejected.value);
-  } else if (r.bound <= tolerance) {
+    }
+  } else if (r.bound <= r.tolerance) {
     r.verdict = Verdict::pass;
   } else {
-    r.reason = "the sum is known to " + number(mass.error()) + " only";
+    r.reason = "the sum is known to " + number(known_to) +
+               " only: " + advice_for(binned.pair(), mass, pass_level);
   }
   return r;
 }
 
 CheckResult check_integral(const SamplingPair& pair, const ContractOptions& options) {
-  BinnedPair binned(pair, options.finest_bins, options.mass_tolerance / 2, options.seed);
+  BinnedPair binned(pair, options);
   binned.draw(kProbes);
   return judge_integral(options, binned, measure_rejected(pair, options.seed));
 }

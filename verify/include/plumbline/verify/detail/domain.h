@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include <plumbline/verify/detail/vector_access.h>
 
@@ -29,10 +29,6 @@ class Chart {
   /// A point at about the given distance from x in the domain (or just outside), in direction
   /// `angle`. Tells a point that rounding put beside the support from one that is nowhere near it.
   virtual Vec3 near(const Vec3& x, double distance, double angle) const = 0;
-
-  /// First coordinate along which densities tend to break, where there is one: the horizon of the
-  /// sphere.
-  virtual std::optional<double> break_line() const { return std::nullopt; }
 
   /// How far x is from the domain, in the units of its coordinates; 0 inside.
   virtual double distance(const Vec3& x) const = 0;
@@ -64,6 +60,23 @@ class Domain {
   /// are outside; a BSDF that also transmits lives on the sphere.
   static Domain hemisphere(bool upper = true);
 
+  /// Unit directions, density per steradian, on the square (θ/π, φ/2π) of a latitude-longitude map,
+  /// with breaks at the edges of its pixels.
+  ///
+  /// @param up     direction of θ = 0, unit; rows run from it to −up
+  /// @param start  direction at right angles to it from which azimuths are counted, either way
+  /// @throws std::invalid_argument for a map without pixels, or directions that are not at right
+  /// angles
+  static Domain equirectangular(std::size_t columns, std::size_t rows, const Vec3& up = {0, 0, 1},
+                                const Vec3& start = {1, 0, 0});
+
+  /// Unit directions, density per steradian, on the square of an octahedral map with breaks at the
+  /// edges of its pixels: z from the middle outwards, the lower half folded over the corners.
+  ///
+  /// @source Cigolle et al. 2014 (JCGT 3:2), "oct"
+  /// @throws std::invalid_argument for a map without pixels
+  static Domain octahedral(std::size_t pixels_per_side);
+
   /// Points of a surface, density per area, by a chart of one's own.
   ///
   /// @param from_square   [0, 1]² onto the surface
@@ -79,14 +92,27 @@ class Domain {
   bool directions() const { return directions_; }  ///< points are unit vectors
   const Chart& chart() const { return *chart_; }   ///< not for discrete domains
 
+  /// Coordinates of the square, per dimension and ascending, at which a density may jump or bend:
+  /// the horizon of the sphere, the edges of a map's pixels. What lies between them is integrated
+  /// by a rule for smooth functions. Unstated jumps cost certainty, not truth: the interval gets
+  /// wider.
+  const std::array<std::vector<double>, 2>& breaks() const { return breaks_; }
+
+  /// The same domain with further lines, in the coordinates of its chart's square: for `sphere`
+  /// ((1 − z)/2, φ/2π), for an interval its share from 0 to 1, for a disk (r²/R², φ/2π).
+  Domain with_breaks(const std::vector<double>& first,
+                     const std::vector<double>& second = {}) const;
+
  private:
   Domain(std::string name, int dimension, std::shared_ptr<const Chart> chart);
+  static Domain of_directions(std::string name, std::shared_ptr<const Chart> chart);
 
   std::string name_;
   int dimension_ = 2;
   std::size_t size_ = 0;
   bool directions_ = false;
   std::shared_ptr<const Chart> chart_;
+  std::array<std::vector<double>, 2> breaks_;
 };
 
 }  // namespace plumbline::verify

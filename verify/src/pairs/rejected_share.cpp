@@ -1,0 +1,207 @@
+#include "pairs/rejected_share.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "bernstein.h"
+#include "pairs/mass_integral.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+using Sampler = std::function<std::optional<PairSample>(const Uniforms&)>;
+
+// What counting has to reach at 99.9 %: less than half of the promise of 1e-3.
+constexpr double kCountedError = 4e-4;
+constexpr double kPassLevel = 1e-3;
+// None of so many: at most 2.6e-5 with 99.9 %.
+constexpr std::uint64_t kProbes = 1 << 18;
+constexpr std::uint64_t kMostCounted = 1 << 22;
+
+/// The rejected part of lines of constant second number. Borders are bisected between random
+/// places, and what lies unseen between those is added by random points that the borders were not
+/// made from.
+class RejectedLines {
+ public:
+  RejectedLines(const Sampler& sample, int numbers, double epsilon, std::uint64_t seed)
+      : sample_(sample),
+        numbers_(numbers),
+        last_(1 - epsilon),
+        epsilon_(epsilon),
+        random_(seed, 12) {}
+
+  RejectedShare measure() {
+    MassQuestion question;
+    question.integrand = [this](const Point2& p) { return length(p[0]); };
+    question.dimension = 1;
+    question.own = 0;
+    question.spread = numbers_ == 1 ? 16 : 512;
+    question.target = 5e-6;
+    question.max_evaluations = 6'000;
+    question.seed = random_.bits();
+    std::vector<Cell> strips;
+    const int count = numbers_ == 1 ? 1 : 32;
+    for (int i = 0; i < count; ++i) {
+      strips.push_back({{{i / double(count), 0}, {(i + 1) / double(count), 1}}, 0});
+    }
+    const MassIntegral area = integrate_mass(question, strips);
+    return {std::clamp(area.total, 0.0, 1.0), area.variance_of_total, area.largest_term, points_};
+  }
+
+ private:
+  static constexpr int kSteps = 64, kRandomPoints = 16;
+
+  /// Length of the rejected part of a line, unbiased.
+  double length(double second) {
+    std::vector<double> borders;  // alternately into and out of the rejected part
+    bool inside = rejects(0, second);
+    const bool at_start = inside;
+    double from = 0;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double to = i == kSteps ? last_ : (i + random_.uniform()) / kSteps * last_;
+      if (rejects(to, second) != inside) {
+        borders.push_back(bisect(from, to, inside, second));
+        inside = !inside;
+      }
+      from = to;
+    }
+    const auto modelled = [&](double u) {
+      const auto passed = std::upper_bound(borders.begin(), borders.end(), u) - borders.begin();
+      return (passed % 2 == 0) == at_start;
+    };
+    double sum = 0, start = 0;
+    bool rejected = at_start;
+    for (const double b : borders) {
+      if (rejected) sum += b - start;
+      start = b;
+      rejected = !rejected;
+    }
+    if (rejected) sum += 1 - start;
+    double unseen = 0;
+    for (int i = 0; i < kRandomPoints; ++i) {
+      const double u = (i + random_.uniform()) / kRandomPoints;
+      unseen += (rejects(u, second) ? 1.0 : 0.0) - (modelled(u) ? 1.0 : 0.0);
+    }
+    points_ += kRandomPoints;
+    return sum + unseen / kRandomPoints;
+  }
+
+  double bisect(double from, double to, bool at_from, double second) {
+    while (to - from > 4 * epsilon_) {
+      const double middle = (from + to) / 2;
+      (rejects(middle, second) == at_from ? from : to) = middle;
+    }
+    return (from + to) / 2;
+  }
+
+  bool rejects(double first, double second) {
+    return !sample_({std::min(first, last_), std::min(second, last_), 0});
+  }
+
+  const Sampler& sample_;
+  int numbers_;
+  double last_, epsilon_;
+  Random random_;
+  double points_ = 0;
+};
+
+/// Share among random numbers of one after the other.
+template <class Rejects>
+RejectedShare count(const Rejects& rejects, std::uint64_t at_least, std::uint64_t at_most) {
+  RejectedShare share;
+  double rejected = 0;
+  for (std::uint64_t n = at_least;; n *= 2) {
+    while (share.points < static_cast<double>(n)) {
+      rejected += rejects() ? 1 : 0;
+      share.points += 1;
+    }
+    share.value = rejected / share.points;
+    share.variance = share.value * (1 - share.value) / share.points;
+    share.largest_term = 1 / share.points;
+    if (share.error(kPassLevel) <= kCountedError || 2 * n > at_most) return share;
+  }
+}
+
+/// Two random points in each cell of a grid over the cube.
+RejectedShare on_grid(const Sampler& sample, int per_side, double epsilon, Random& random) {
+  const auto rejected = [&](int i, int j, int k) {
+    Uniforms u{};
+    const std::array<int, 3> cell{i, j, k};
+    for (std::size_t d = 0; d < 3; ++d) {
+      u[d] = std::min((cell[d] + random.uniform()) / per_side, 1 - epsilon);
+    }
+    return sample(u) ? 0.0 : 1.0;
+  };
+  double sum = 0, squares = 0;
+  for (int i = 0; i < per_side; ++i) {
+    for (int j = 0; j < per_side; ++j) {
+      for (int k = 0; k < per_side; ++k) {
+        const double a = rejected(i, j, k), b = rejected(i, j, k);
+        sum += (a + b) / 2;
+        squares += (a - b) * (a - b) / 4;
+      }
+    }
+  }
+  const double cells = std::pow(per_side, 3);
+  return {sum / cells, squares / (cells * cells), 0.5 / cells, 2 * cells};
+}
+
+RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon, std::uint64_t seed) {
+  Random random(seed, 13);
+  const auto rejects = [&] {
+    Uniforms u{};
+    for (int d = 0; d < numbers; ++d) {
+      u[static_cast<std::size_t>(d)] = std::min(random.uniform(), 1 - epsilon);
+    }
+    return !sample(u);
+  };
+  const RejectedShare probed = count(rejects, kProbes, kProbes);
+  if (probed.value == 0) return probed;
+  if (numbers <= 2) return RejectedLines(sample, numbers, epsilon, seed).measure();
+  RejectedShare share;
+  for (const int per_side : {48, 64, 96}) {
+    share = on_grid(sample, per_side, epsilon, random);
+    if (share.error(kPassLevel) <= kCountedError) break;
+  }
+  return share;
+}
+
+}  // namespace
+
+double RejectedShare::error(double level) const {
+  if (points == 0) return 0;
+  if (value == 0) return -std::log(level) / points;
+  return bernstein(variance, largest_term, level);
+}
+
+RejectedShare RejectedShare::scaled(double factor) const {
+  return {factor * value, factor * factor * variance, factor * largest_term, points / factor};
+}
+
+RejectedShare measure_rejected(const SamplingPair& pair, std::uint64_t seed) {
+  if (!pair.lobes.empty()) {
+    // A lobe's own square shows what is narrow in the share of the whole square that it has.
+    RejectedShare sum;
+    for (const PairLobe& lobe : pair.lobes) {
+      if (!(lobe.probability > 0)) continue;
+      const RejectedShare share =
+          of_numbers(lobe.sample, 2, pair.epsilon, seed).scaled(lobe.probability);
+      sum.value += share.value;
+      sum.variance += share.variance;
+      sum.largest_term = std::max(sum.largest_term, share.largest_term);
+      sum.points = sum.points == 0 ? share.points : std::min(sum.points, share.points);
+    }
+    return sum;
+  }
+  if (pair.draw) {
+    Random random(seed, 13);
+    return count([&] { return !pair.draw(random); }, kProbes, kMostCounted);
+  }
+  return of_numbers(pair.sample, pair.numbers, pair.epsilon, seed);
+}
+
+}  // namespace plumbline::verify
