@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "streams.h"
+
 namespace plumbline::verify {
 
 namespace {
@@ -28,7 +30,7 @@ bool same_point(const Vec3& a, const Vec3& b) {
 }
 
 std::vector<Point2> draw_pilot(const SamplingPair& pair, std::size_t count, std::uint64_t seed) {
-  Random random(seed, 1);
+  Random random = random_for(seed, Stream::pilot);
   std::vector<Point2> points;
   points.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -76,7 +78,7 @@ CubatureResult integrate_over(const BinTree& tree, const Chart& chart,
 BinnedPair::BinnedPair(const SamplingPair& pair, int finest_bins, double mass_error,
                        std::uint64_t seed)
     : pair_(pair),
-      random_(seed, 2),
+      random_(random_for(seed, Stream::samples)),
       depth_(log2_of(pair.domain.size() > 0 ? pair.domain.size()
                                             : static_cast<std::size_t>(finest_bins))) {
   if (pair.domain.size() > 0) {
@@ -120,7 +122,7 @@ CubatureResult integrate_over_domain(const SamplingPair& pair,
 
 void BinnedPair::measure_rounding(std::uint64_t seed) {
   constexpr int kPoints = 500;
-  Random random(seed, 10);
+  Random random = random_for(seed, Stream::rounding);
   double sum = 0;
   int count = 0;
   for (int i = 0; i < kPoints; ++i) {
@@ -150,7 +152,7 @@ void BinnedPair::draw(std::uint64_t count) {
   counts_.drawn += count;
 }
 
-void BinnedPair::count_atom(const PairSample& sample) {
+void BinnedPair::count_atom(const SampleRecord& sample) {
   for (AtomCount& a : counts_.atoms) {
     if (same_point(a.atom.x, sample.x)) {
       ++a.drawn;

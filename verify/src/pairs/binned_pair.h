@@ -65,7 +65,7 @@ class BinnedPair {
   void integrate_density(double mass_error, std::uint64_t seed);
   void tabulate_discrete();
   void measure_rounding(std::uint64_t seed);
-  void count_atom(const PairSample& sample);
+  void count_atom(const SampleRecord& sample);
   void count_point(const Vec3& x);
   std::size_t locate(const Vec3& x) const;
   bool is_stray(const Vec3& x) const;

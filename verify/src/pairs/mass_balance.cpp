@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "distributions.h"
+#include "streams.h"
 
 namespace plumbline::verify {
 
@@ -20,11 +21,11 @@ namespace {
 /// strips that show too little for their points are halved.
 class RejectedArea {
  public:
-  using Sampler = std::function<std::optional<PairSample>(const Uniforms&)>;
+  using Sampler = std::function<std::optional<SampleRecord>(const Uniforms&)>;
 
   RejectedArea(const Sampler& sample, double epsilon, std::uint64_t seed)
       : sample_(sample), epsilon_(epsilon) {
-    Random random(seed, 12);
+    Random random = random_for(seed, Stream::rejected);
     for (int i = 0; i < kProbes; ++i) {
       const Point2 p{random.uniform(), random.uniform()};
       if (rejects(p[0], p[1])) probes_.push_back(p);
@@ -144,6 +145,9 @@ double MassBalance::expected_rejected(double tolerance) const {
 RejectedShare measure_rejected(const SamplingPair& pair, std::uint64_t seed) {
   if (pair.draw || pair.numbers != 2) return {};
   if (pair.lobes.empty()) return RejectedArea(pair.sample, pair.epsilon, seed).measure();
+  for (const PairLobe& lobe : pair.lobes) {
+    if (!lobe.sample) return {};
+  }
   // A lobe's own square shows what is narrow in the share of the whole square that it has.
   RejectedShare sum{0, 0, true};
   for (const PairLobe& lobe : pair.lobes) {
