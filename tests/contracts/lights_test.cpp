@@ -31,11 +31,11 @@ SamplingPair light_pair(const LightExample& example) {
   pair.name = "light/" + example.name;
   pair.domain = verify::Domain::sphere();
   pair.epsilon = std::is_same_v<T, float> ? 0x1p-24 : 0x1p-53;
-  pair.sample = [=](const verify::Uniforms& u) -> std::optional<verify::PairSample> {
+  pair.sample = [=](const verify::Uniforms& u) -> std::optional<verify::SampleRecord> {
     const auto s = renderer::sample(example.light, reference,
                                     Vec2<T>{static_cast<T>(u[0]), static_cast<T>(u[1])});
     if (!s) return std::nullopt;
-    verify::PairSample result;
+    verify::SampleRecord result;
     result.x = verify::to_vec3(s->wi);
     result.pdf = static_cast<double>(s->pdf_w);
     result.mass = static_cast<double>(s->mass);

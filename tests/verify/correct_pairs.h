@@ -39,11 +39,11 @@ struct Diffuse {
   static double eval(const Vec3& wo, const Vec3& wi) {
     return wo[2] > 0 && wi[2] > 0 ? 1 / std::numbers::pi : 0;
   }
-  static std::optional<BsdfRecord> sample(const Vec3& wo, double u, double v) {
+  static std::optional<SampleRecord> sample(const Vec3& wo, double u, double v) {
     if (!(wo[2] > 0)) return std::nullopt;
     const double r = std::sqrt(u), phi = 2 * std::numbers::pi * v;
     const Vec3 wi{r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)};
-    return BsdfRecord{wi, gray(1), pdf(wo, wi), 0};
+    return SampleRecord{wi, gray(1), pdf(wo, wi)};
   }
 };
 
@@ -84,13 +84,13 @@ struct RoughMirror {
                  a * t1[2] + b * t2[2] + c * w[2]};
     return unit({alpha * h[0], alpha * h[1], std::max(0.0, h[2])});
   }
-  std::optional<BsdfRecord> sample(const Vec3& wo, double u, double v) const {
+  std::optional<SampleRecord> sample(const Vec3& wo, double u, double v) const {
     if (!(wo[2] > 0)) return std::nullopt;
     const Vec3 h = visible_normal(wo, u, v);
     const double d = 2 * dot_of(wo, h);
     const Vec3 wi{d * h[0] - wo[0], d * h[1] - wo[1], d * h[2] - wo[2]};
     if (!(wi[2] > 0)) return std::nullopt;
-    return BsdfRecord{wi, gray(masking(wi)), pdf(wo, wi), 0};
+    return SampleRecord{wi, gray(masking(wi)), pdf(wo, wi)};
   }
 };
 
@@ -114,15 +114,15 @@ inline ErasedBsdf mixture(const ErasedBsdf& a, const ErasedBsdf& b, double share
   e.eval = [=](const Vec3& wo, const Vec3& wi) {
     return gray(share_of_a * a.eval(wo, wi)[0] + (1 - share_of_a) * b.eval(wo, wi)[0]);
   };
-  e.sample = [=](const Vec3& wo, const Uniforms& u) -> std::optional<BsdfRecord> {
+  e.sample = [=](const Vec3& wo, const Uniforms& u) -> std::optional<SampleRecord> {
     const double p = first(wo);
     auto record = u[0] < p ? a.sample(wo, {u[0] / p, u[1], 0})
                            : b.sample(wo, {(u[0] - p) / (1 - p), u[1], 0});
     if (!record) return std::nullopt;
-    record->pdf = p * a.pdf(wo, record->wi) + (1 - p) * b.pdf(wo, record->wi);
+    record->pdf = p * a.pdf(wo, record->x) + (1 - p) * b.pdf(wo, record->x);
     const double f =
-        share_of_a * a.eval(wo, record->wi)[0] + (1 - share_of_a) * b.eval(wo, record->wi)[0];
-    record->weight = gray(f * std::abs(record->wi[2]) / record->pdf);
+        share_of_a * a.eval(wo, record->x)[0] + (1 - share_of_a) * b.eval(wo, record->x)[0];
+    record->weight = gray(f * std::abs(record->x[2]) / *record->pdf);
     return record;
   };
   e.lobes = {{first, a.sample, a.pdf},
@@ -138,7 +138,7 @@ inline ErasedBsdf transmitted(const ErasedBsdf& b) {
   e.eval = [=](const Vec3& wo, const Vec3& wi) { return b.eval(wo, flip(wi)); };
   e.sample = [=](const Vec3& wo, const Uniforms& u) {
     auto record = b.sample(wo, u);
-    if (record) record->wi = flip(record->wi);
+    if (record) record->x = flip(record->x);
     return record;
   };
   return e;

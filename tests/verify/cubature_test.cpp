@@ -68,8 +68,8 @@ TEST(Cubature, SaysWhenTheIntegrandIsNotFinite) {
   EXPECT_FALSE(over_square([](const Point2& p) { return 1 / (p[0] - 0.5); }, 1e-6).finite);
 }
 
-PairSample at(const Vec3& x) {
-  PairSample s;
+SampleRecord at(const Vec3& x) {
+  SampleRecord s;
   s.x = x;
   return s;
 }
@@ -78,7 +78,7 @@ PairSample at(const Vec3& x) {
 SamplingPair rectangle(double x0, double width, double y0, double height) {
   SamplingPair pair;
   pair.domain = Domain::sphere();
-  pair.sample = [=](const Uniforms& u) -> std::optional<PairSample> {
+  pair.sample = [=](const Uniforms& u) -> std::optional<SampleRecord> {
     const double x = x0 + width * u[0], y = y0 + height * u[1];
     const double d = std::sqrt(x * x + y * y + 1);
     return at({x / d, y / d, 1 / d});
@@ -109,7 +109,7 @@ SamplingPair lobe(double k, const Vec3& axis) {
                axis[0] * a[1] - axis[1] * a[0]};
   SamplingPair pair;
   pair.domain = Domain::sphere();
-  pair.sample = [=](const Uniforms& u) -> std::optional<PairSample> {
+  pair.sample = [=](const Uniforms& u) -> std::optional<SampleRecord> {
     // 1 − cosθ, written so that nothing cancels for narrow lobes.
     const double h = -std::log1p(-u[0] * -std::expm1(-2 * k)) / k;
     const double radius = std::sqrt(h * (2 - h)), phi = 2 * kPi * u[1];
@@ -156,9 +156,9 @@ SamplingPair rejecting(std::function<bool(double, double)> rejects) {
   SamplingPair pair;
   pair.name = "rejecting";
   pair.domain = Domain::sphere();
-  pair.sample = [rejects = std::move(rejects)](const Uniforms& u) -> std::optional<PairSample> {
+  pair.sample = [rejects = std::move(rejects)](const Uniforms& u) -> std::optional<SampleRecord> {
     if (rejects(u[0], u[1])) return std::nullopt;
-    return PairSample{{0, 0, 1}, kNotApplicable, 0, {}};
+    return SampleRecord{{0, 0, 1}};
   };
   return pair;
 }

@@ -122,9 +122,9 @@ void without_half_vector_jacobian(ErasedBsdf& b) {
   b.sample = [pdf = b.pdf, sample](const Vec3& wo, const Uniforms& u) {
     auto record = sample(wo, u);
     if (record) {
-      const double right = record->pdf;
-      record->pdf = pdf(wo, record->wi);
-      record->weight.value[0] *= right / record->pdf;
+      const double right = *record->pdf;
+      record->pdf = pdf(wo, record->x);
+      record->weight.value[0] *= right / *record->pdf;
     }
     return record;
   };
@@ -133,7 +133,7 @@ void without_half_vector_jacobian(ErasedBsdf& b) {
 void pdf_of_the_chosen_lobe(ErasedBsdf& b) {
   b.sample = [a = b.lobes, sample = b.sample](const Vec3& wo, const Uniforms& u) {
     auto record = sample(wo, u);
-    if (record) record->pdf = a[u[0] < a[0].probability(wo) ? 0 : 1].pdf(wo, record->wi);
+    if (record) record->pdf = a[u[0] < a[0].probability(wo) ? 0 : 1].pdf(wo, record->x);
     return record;
   };
 }
@@ -143,9 +143,9 @@ void weight_of_the_chosen_lobe(ErasedBsdf& b) {
   b.sample = [sample = b.sample](const Vec3& wo, const Uniforms& u) {
     auto record = sample(wo, u);
     if (!record) return record;
-    const double f = u[0] < 0.4 ? 0.4 * Diffuse::eval(wo, record->wi)
-                                : 0.6 * RoughMirror{0.3}.eval(wo, record->wi);
-    record->weight = gray(f * record->wi[2] / record->pdf);
+    const double f = u[0] < 0.4 ? 0.4 * Diffuse::eval(wo, record->x)
+                                : 0.6 * RoughMirror{0.3}.eval(wo, record->x);
+    record->weight = gray(f * record->x[2] / *record->pdf);
     return record;
   };
 }
@@ -157,7 +157,7 @@ void swapped(ErasedBsdf& b) {
   b.eval = [eval](const Vec3& wo, const Vec3& wi) { return eval(wi, wo); };
   b.sample = [pdf = b.pdf, sample = b.sample](const Vec3& wo, const Uniforms& u) {
     auto record = sample(wo, u);
-    if (record) record->pdf = pdf(wo, record->wi);
+    if (record) record->pdf = pdf(wo, record->x);
     return record;
   };
 }
@@ -167,7 +167,7 @@ void cosine_twice(ErasedBsdf& b) {
   b.eval = [eval](const Vec3& wo, const Vec3& wi) { return gray(eval(wo, wi)[0] * wi[2]); };
   b.sample = [sample = b.sample](const Vec3& wo, const Uniforms& u) {
     auto record = sample(wo, u);
-    if (record) record->weight.value[0] *= record->wi[2];
+    if (record) record->weight.value[0] *= record->x[2];
     return record;
   };
 }

@@ -12,4 +12,10 @@ std::string number(double value) {
 
 std::string number(std::uint64_t value) { return std::to_string(value); }
 
+std::string place(const Vec3& x) {
+  std::string text = "(";
+  text += number(x[0]) + ", " + number(x[1]) + ", " + number(x[2]) + ")";
+  return text;
+}
+
 }  // namespace plumbline::verify

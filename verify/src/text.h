@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include <plumbline/verify/detail/vector_access.h>
+
 /// Numbers in the sentences that people read.
 namespace plumbline::verify {
 
@@ -10,5 +12,8 @@ namespace plumbline::verify {
 std::string number(double value);
 
 std::string number(std::uint64_t value);
+
+/// "(0.1, 0.2, 0.97)"
+std::string place(const Vec3& x);
 
 }  // namespace plumbline::verify

@@ -10,7 +10,7 @@ namespace plumbline::calibration {
 namespace {
 
 using std::numbers::pi;
-using verify::PairSample;
+using verify::SampleRecord;
 using verify::SamplingPair;
 using verify::Uniforms;
 using verify::Vec3;
@@ -22,8 +22,8 @@ Vec3 cosine_direction(double u, double v) {
 
 double cosine_pdf(const Vec3& w) { return w[2] > 0 ? w[2] / pi : 0; }
 
-PairSample at(const Vec3& x) {
-  PairSample s;
+SampleRecord at(const Vec3& x) {
+  SampleRecord s;
   s.x = x;
   return s;
 }

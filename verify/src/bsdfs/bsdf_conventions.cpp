@@ -4,6 +4,7 @@
 
 #include <plumbline/verify/detail/erase_bsdf.h>
 
+#include "pairs/uniforms.h"
 #include "vec3.h"
 
 namespace plumbline::verify {
@@ -75,18 +76,21 @@ class Translator {
     return f;
   }
 
+  /// @param density  that the samples should have, in the author's conventions
   template <class Source>
-  std::optional<BsdfRecord> sample(
-      const std::function<std::optional<BsdfRecord>(const Vec3&, Source)>& function, const Vec3& wo,
-      Source source) const {
+  std::optional<SampleRecord> sample(
+      const std::function<std::optional<SampleRecord>(const Vec3&, Source)>& function,
+      const Density& density, const Vec3& wo, Source source) const {
     auto record = function(given(wo), source);
-    if (!record || (c_.zero_pdf_is_failure && record->pdf == 0 && record->mass == 0)) {
-      return std::nullopt;
-    }
-    record->wi = frame_.to_ours(record->wi);
-    const double cosine = std::abs(record->wi[2]);
-    if (c_.projected_pdf) record->pdf *= cosine;
-    translate_weight(*record, cosine);
+    if (!record) return std::nullopt;
+    const auto probability = [&, theirs = record->x] {
+      if (record->mass > 0) return record->mass;
+      return record->pdf ? *record->pdf : in_their_order(density, given(wo), theirs);
+    };
+    if (c_.zero_pdf_is_failure && record->mass == 0 && probability() == 0) return std::nullopt;
+    record->x = frame_.to_ours(record->x);
+    translate_weight(*record, probability);
+    if (c_.projected_pdf && record->pdf) *record->pdf *= std::abs(record->x[2]);
     return record;
   }
 
@@ -101,35 +105,60 @@ class Translator {
   template <class R>
   R call(const std::function<R(const Vec3&, const Vec3&)>& f, const Vec3& wo,
          const Vec3& wi) const {
-    return c_.sampled_direction_first ? f(frame_.to_theirs(wi), given(wo))
-                                      : f(given(wo), frame_.to_theirs(wi));
+    return in_their_order(f, given(wo), frame_.to_theirs(wi));
+  }
+
+  template <class R>
+  R in_their_order(const std::function<R(const Vec3&, const Vec3&)>& f, const Vec3& given,
+                   const Vec3& sampled) const {
+    return c_.sampled_direction_first ? f(sampled, given) : f(given, sampled);
   }
 
   static void scale(Channels& channels, double factor) {
     for (std::size_t i = 0; i < channels.count; ++i) channels.value[i] *= factor;
   }
 
-  void translate_weight(BsdfRecord& record, double cosine) const {
-    const double probability = record.mass > 0 ? record.mass : record.pdf;
-    switch (c_.weight) {
-      case Conventions::Weight::throughput:
-        break;
-      case Conventions::Weight::f:
-        scale(record.weight, cosine / probability);
-        break;
-      case Conventions::Weight::f_cosine:
-        scale(record.weight, 1 / probability);
-        break;
-      case Conventions::Weight::unused:
-        record.weight = {};
-        break;
+  /// @param probability  the record's pdf in the author's measure, or mass
+  template <class Probability>
+  void translate_weight(SampleRecord& record, const Probability& probability) const {
+    if (c_.weight == Conventions::Weight::throughput || record.weight.count == 0) return;
+    if (c_.weight == Conventions::Weight::unused) {
+      record.weight = {};
+      return;
     }
+    const double cosine = std::abs(record.x[2]);
+    const double projected = c_.projected_pdf && !(record.mass > 0) ? cosine : 1;
+    const double value = c_.weight == Conventions::Weight::f ? cosine : 1;
+    scale(record.weight, value / (projected * probability()));
   }
 
   ErasedBsdf raw_;
   Conventions c_;
   FrameChange frame_;
 };
+
+/// @param lobe  of the translator's own BSDF, which it keeps
+BsdfLobe translated(const std::shared_ptr<const Translator>& translator, const BsdfLobe& lobe) {
+  BsdfLobe ours;
+  ours.numbers = lobe.numbers;
+  ours.probability = [translator, &lobe](const Vec3& wo) {
+    return translator->probability(lobe, wo);
+  };
+  ours.pdf = [translator, &lobe](const Vec3& wo, const Vec3& wi) {
+    return translator->pdf(lobe.pdf, wo, wi);
+  };
+  if (lobe.sample) {
+    ours.sample = [translator, &lobe](const Vec3& wo, const Uniforms& u) {
+      return translator->sample<const Uniforms&>(lobe.sample, lobe.pdf, wo, u);
+    };
+  }
+  if (lobe.draw) {
+    ours.draw = [translator, &lobe](const Vec3& wo, Random& random) {
+      return translator->sample<Random&>(lobe.draw, lobe.pdf, wo, random);
+    };
+  }
+  return ours;
+}
 
 }  // namespace
 
@@ -139,31 +168,27 @@ ErasedBsdf apply_conventions(ErasedBsdf raw, const BsdfConventions& conventions)
   ErasedBsdf ours;
   ours.epsilon = theirs.epsilon;
   ours.numbers = theirs.numbers;
-  for (const BsdfLobe& lobe : theirs.lobes) {
-    ours.lobes.push_back(
-        {[translator, &lobe](const Vec3& wo) { return translator->probability(lobe, wo); },
-         [translator, &lobe](const Vec3& wo, const Uniforms& u) {
-           return translator->sample<const Uniforms&>(lobe.sample, wo, u);
-         },
-         [translator, &lobe](const Vec3& wo, const Vec3& wi) {
-           return translator->pdf(lobe.pdf, wo, wi);
-         }});
-  }
+  for (const BsdfLobe& lobe : theirs.lobes) ours.lobes.push_back(translated(translator, lobe));
   ours.pdf = [translator](const Vec3& wo, const Vec3& wi) {
     return translator->pdf(translator->raw().pdf, wo, wi);
   };
   ours.eval = [translator](const Vec3& wo, const Vec3& wi) { return translator->eval(wo, wi); };
   if (theirs.sample) {
     ours.sample = [translator](const Vec3& wo, const Uniforms& u) {
-      return translator->sample<const Uniforms&>(translator->raw().sample, wo, u);
+      return translator->sample<const Uniforms&>(translator->raw().sample, translator->raw().pdf,
+                                                 wo, u);
     };
   }
   if (theirs.draw) {
     ours.draw = [translator](const Vec3& wo, Random& random) {
-      return translator->sample<Random&>(translator->raw().draw, wo, random);
+      return translator->sample<Random&>(translator->raw().draw, translator->raw().pdf, wo, random);
     };
   }
   return ours;
+}
+
+std::optional<SampleRecord> ErasedBsdf::next(const Vec3& wo, Random& random) const {
+  return draw ? draw(wo, random) : sample(wo, draw_uniforms(random, numbers, epsilon));
 }
 
 }  // namespace plumbline::verify

@@ -1,23 +1,20 @@
 #include <cmath>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include <plumbline/verify/bsdf.h>
 
 #include "diagnosis/smith.h"
+#include "pairs/uniforms.h"
 #include "vec3.h"
 
 namespace plumbline::verify {
 
 namespace {
 
-PairSample to_pair_sample(const BsdfRecord& record) {
-  return {record.wi, record.pdf, record.mass, record.weight};
-}
-
-std::optional<PairSample> to_pair_sample(const std::optional<BsdfRecord>& record) {
-  if (!record) return std::nullopt;
-  return to_pair_sample(*record);
-}
+/// Held by all functions of a pair together.
+using Held = std::shared_ptr<const ErasedBsdf>;
 
 Suspect ratio_of_pdf(const char* name, const char* remark,
                      std::function<double(const Vec3&)> value) {
@@ -48,15 +45,13 @@ void add_half_vector(std::vector<Suspect>& suspects, const Vec3& wo) {
   }
 }
 
-void add_swapped(std::vector<Suspect>& suspects, const ErasedBsdf& bsdf, const Vec3& wo) {
-  const auto eval = bsdf.eval;
-  const auto pdf = bsdf.pdf;
-  suspects.push_back(ratio_of_pdf("pdf(wi, wo)/pdf(wo, wi)",
-                                  "wo and wi swapped in pdf relative to sample?",
-                                  [pdf, wo](const Vec3& wi) { return pdf(wi, wo) / pdf(wo, wi); }));
+void add_swapped(std::vector<Suspect>& suspects, const Held& bsdf, const Vec3& wo) {
   suspects.push_back(
-      ratio_of_value("f(wi, wo)/f(wo, wi)", "wo and wi swapped in eval relative to sample?",
-                     [eval, wo](const Vec3& wi) { return eval(wi, wo)[0] / eval(wo, wi)[0]; }));
+      ratio_of_pdf("pdf(wi, wo)/pdf(wo, wi)", "wo and wi swapped in pdf relative to sample?",
+                   [bsdf, wo](const Vec3& wi) { return bsdf->pdf(wi, wo) / bsdf->pdf(wo, wi); }));
+  suspects.push_back(ratio_of_value(
+      "f(wi, wo)/f(wo, wi)", "wo and wi swapped in eval relative to sample?",
+      [bsdf, wo](const Vec3& wi) { return bsdf->eval(wi, wo)[0] / bsdf->eval(wo, wi)[0]; }));
 }
 
 void add_refraction(std::vector<Suspect>& suspects, const Vec3& wo, double eta) {
@@ -66,35 +61,63 @@ void add_refraction(std::vector<Suspect>& suspects, const Vec3& wo, double eta) 
                       }});
 }
 
-std::vector<PairLobe> lobes_at(const ErasedBsdf& bsdf, const Vec3& wo) {
+bool same(const std::optional<SampleRecord>& a, const std::optional<SampleRecord>& b) {
+  return a.has_value() == b.has_value() && (!a || a->x == b->x);
+}
+
+/// Whether the lobe's map is one of two numbers: it takes no third, or does nothing with it.
+bool maps_a_square(const BsdfLobe& lobe, const Vec3& wo) {
+  if (!lobe.sample || lobe.numbers < 3) return lobe.sample && lobe.numbers == 2;
+  for (const double first : {0.1, 0.4, 0.9}) {
+    for (const double second : {0.2, 0.7}) {
+      const auto here = lobe.sample(wo, {first, second, 0});
+      for (const double third : {0.05, 0.3, 0.6, 0.95}) {
+        if (!same(here, lobe.sample(wo, {first, second, third}))) return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// The lobes from one direction. One that takes a third number for something is drawn with the
+/// check's own: it has no Jacobian, but a density that adds to the whole.
+std::vector<PairLobe> lobes_at(const Held& bsdf, const Vec3& wo) {
   std::vector<PairLobe> lobes;
-  for (std::size_t i = 0; i < bsdf.lobes.size(); ++i) {
-    const BsdfLobe& lobe = bsdf.lobes[i];
-    lobes.push_back({"lobe " + std::to_string(i), lobe.probability(wo),
-                     [lobe, wo](const Uniforms& u) { return to_pair_sample(lobe.sample(wo, u)); },
-                     [lobe, wo](const Vec3& wi) { return lobe.pdf(wo, wi); }});
+  for (std::size_t i = 0; i < bsdf->lobes.size(); ++i) {
+    const BsdfLobe& lobe = bsdf->lobes[i];
+    PairLobe at;
+    at.name = "lobe " + std::to_string(i);
+    at.probability = lobe.probability(wo);
+    at.pdf = [bsdf, &lobe, wo](const Vec3& wi) { return lobe.pdf(wo, wi); };
+    if (maps_a_square(lobe, wo)) {
+      at.sample = [bsdf, &lobe, wo](const Uniforms& u) { return lobe.sample(wo, u); };
+    } else if (lobe.draw) {
+      at.draw = [bsdf, &lobe, wo](Random& random) { return lobe.draw(wo, random); };
+    } else {
+      at.draw = [bsdf, &lobe, wo](Random& random) {
+        return lobe.sample(wo, draw_uniforms(random, lobe.numbers, bsdf->epsilon));
+      };
+    }
+    lobes.push_back(std::move(at));
   }
   return lobes;
 }
 
 }  // namespace
 
-SamplingPair bsdf_pair(const std::string& name, const ErasedBsdf& bsdf, const Vec3& wo,
+SamplingPair bsdf_pair(const std::string& name, const ErasedBsdf& erased, const Vec3& wo,
                        const BsdfOptions& options) {
+  const Held bsdf = std::make_shared<const ErasedBsdf>(erased);
   SamplingPair pair;
   pair.name = name;
   pair.domain = Domain::sphere();
-  pair.numbers = bsdf.numbers;
-  pair.epsilon = bsdf.epsilon;
-  if (bsdf.sample) {
-    pair.sample = [bsdf, wo](const Uniforms& u) { return to_pair_sample(bsdf.sample(wo, u)); };
-  }
-  if (bsdf.draw) {
-    pair.draw = [bsdf, wo](Random& random) { return to_pair_sample(bsdf.draw(wo, random)); };
-  }
-  pair.pdf = [bsdf, wo](const Vec3& wi) { return bsdf.pdf(wo, wi); };
+  pair.numbers = bsdf->numbers;
+  pair.epsilon = bsdf->epsilon;
+  if (bsdf->sample) pair.sample = [bsdf, wo](const Uniforms& u) { return bsdf->sample(wo, u); };
+  if (bsdf->draw) pair.draw = [bsdf, wo](Random& random) { return bsdf->draw(wo, random); };
+  pair.pdf = [bsdf, wo](const Vec3& wi) { return bsdf->pdf(wo, wi); };
   pair.value = [bsdf, wo](const Vec3& wi) {
-    Channels f = bsdf.eval(wo, wi);
+    Channels f = bsdf->eval(wo, wi);
     for (std::size_t c = 0; c < f.count; ++c) f.value[c] *= std::abs(wi[2]);
     return f;
   };

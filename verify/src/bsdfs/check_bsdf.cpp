@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -7,11 +8,18 @@
 #include <plumbline/verify/bsdf.h>
 
 #include "diagnosis/constant_diagnosis.h"
-#include "pairs/chi_square_look.h"
+#include "pairs/battery.h"
+#include "streams.h"
+#include "text.h"
 
 namespace plumbline::verify {
 
 namespace {
+
+constexpr const char* kBlackEverywhere =
+    "no direction gives any sample, so that nothing was tested: are the frame and the side that "
+    "the given direction points to as the conventions say, and is it looked at from a side that "
+    "it scatters on?";
 
 /// A direction to look from, with the name that results carry.
 struct View {
@@ -27,7 +35,7 @@ std::string view_name(const Vec3& wo, const char* face) {
 }
 
 std::vector<View> views_of(const BsdfOptions& options) {
-  Random random(options.contract.seed, 9);
+  Random random = random_for(options.contract.seed, Stream::views);
   std::vector<View> views;
   for (const bool front : {true, false}) {
     if (!(front ? options.front : options.back)) continue;
@@ -57,37 +65,6 @@ BsdfOptions for_view(BsdfOptions options, std::size_t view) {
   return options;
 }
 
-bool saw_atoms(const std::vector<CheckResult>& results) {
-  for (const CheckResult& r : results) {
-    for (const auto& [name, value] : r.figures) {
-      if (name == "atoms" && value > 0) return true;
-    }
-  }
-  return false;
-}
-
-bool gives_samples(const SamplingPair& pair, std::uint64_t seed) {
-  constexpr int kTries = 1'000;
-  Random random(seed, 10);
-  for (int i = 0; i < kTries; ++i) {
-    if (pair.next(random)) return true;
-  }
-  return false;
-}
-
-/// Nothing is wrong with black, and every check of it passes: but more often than not it stands for
-/// a convention that was not stated.
-CheckResult black_everywhere(const std::string& name, const BsdfOptions& options) {
-  CheckResult r;
-  r.check = "samples";
-  r.subject = name + "/samples";
-  r.seed = options.contract.seed;
-  r.reason =
-      "no direction gives any sample: are the frame and the side that the given direction points "
-      "to as the conventions say?";
-  return r;
-}
-
 }  // namespace
 
 std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& bsdf,
@@ -95,27 +72,27 @@ std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& b
   std::vector<CheckResult> all;
   ConstantByView constants;
   const std::vector<View> views = views_of(options);
-  bool black = true;
+  bool black = true;  // which from some directions may be right, from all is most likely not
   for (std::size_t i = 0; i < views.size(); ++i) {
     const View& view = views[i];
     const BsdfOptions here = for_view(options, i);
     const std::string subject = name + "/" + view.name;
     const SamplingPair pair = bsdf_pair(subject, bsdf, view.wo, here);
-    black = black && !gives_samples(pair, here.contract.seed);
     PairOutcome outcome = judge_pair(pair, here.contract);
+    black = black && outcome.nothing;
     constants.add(view.wo, outcome.cause);
     std::vector<CheckResult>& results = outcome.results;
     if (options.conserves_energy || options.albedo) {
       results.push_back(check_energy(subject, bsdf, view.wo, here));
     }
-    if (saw_atoms(results)) results.push_back(check_atoms(subject, bsdf, view.wo, here));
+    if (outcome.atoms) results.push_back(check_atoms(subject, bsdf, view.wo, here));
     for (CheckResult& r : results) {
       if (!r.as_expected()) r.reason += "; wo = " + place(view.wo) + ", z the normal";
       all.push_back(std::move(r));
     }
   }
   if (options.reciprocal) all.push_back(check_reciprocity(name, bsdf, options));
-  if (black) all.push_back(black_everywhere(name, options));
+  if (black) all.push_back(nothing_sampled(name, options.contract, kBlackEverywhere));
   const std::string of_view = constants.diagnosis();
   for (CheckResult& r : all) {
     if (!of_view.empty() && !r.diagnosis.empty()) r.diagnosis = of_view;

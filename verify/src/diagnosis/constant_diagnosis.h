@@ -9,14 +9,6 @@
 
 namespace plumbline::verify {
 
-struct PairOutcome {
-  std::vector<CheckResult> results;
-  Diagnosis cause;
-};
-
-/// check_pair, with the diagnosis as numbers.
-PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options);
-
 /// A factor that is constant for each wo may be a function of wo: cosθo, G1(wo).
 class ConstantByView {
  public:

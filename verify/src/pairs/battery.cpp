@@ -1,12 +1,10 @@
+#include "pairs/battery.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include <plumbline/verify/pair.h>
-
-#include "diagnosis/constant_diagnosis.h"
-#include "diagnosis/diagnosis.h"
 #include "pairs/binned_pair.h"
 #include "pairs/chi_square_look.h"
 #include "pairs/integral_check.h"
@@ -72,15 +70,34 @@ PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options)
   results.push_back(judge_integral(options, binned, rejected));
   if (chi_square.verdict == Verdict::fail) cause.consider(pair, bin_evidence(binned));
   results.push_back(std::move(chi_square));
+  const BinCounts& counts = binned.counts();
 
   for (CheckResult& r : results) {
     if (r.verdict == Verdict::fail) r.diagnosis = cause.best().text;
   }
-  return {std::move(results), cause.best()};
+  return {std::move(results), cause.best(), counts.rejected == counts.drawn, !counts.atoms.empty()};
+}
+
+CheckResult nothing_sampled(const std::string& name, const ContractOptions& options,
+                            const std::string& advice) {
+  CheckResult r;
+  r.check = "samples";
+  r.subject = name + "/samples";
+  r.seed = options.seed;
+  r.reason = advice;
+  return r;
 }
 
 std::vector<CheckResult> check_pair(const SamplingPair& pair, const ContractOptions& options) {
-  return judge_pair(pair, options).results;
+  PairOutcome outcome = judge_pair(pair, options);
+  if (outcome.nothing) {
+    outcome.results.push_back(nothing_sampled(
+        pair.name, options,
+        "the sampler rejected every random number, so that nothing was tested: does it take them "
+        "as it is given them, and is what it is asked about (direction, side, light) one that it "
+        "samples?"));
+  }
+  return std::move(outcome.results);
 }
 
 }  // namespace plumbline::verify

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "streams.h"
+
 namespace plumbline::verify {
 
 namespace {
@@ -57,7 +59,7 @@ MassIntegral integrate_over(const BinTree& tree, const SamplingPair& pair,
                             const std::function<double(const Vec3&)>& function, std::size_t own,
                             const ContractOptions& options, double error) {
   const Chart& chart = pair.domain.chart();
-  Random random(options.seed, 20);
+  Random random = random_for(options.seed, Stream::own_nodes);
   MassQuestion question;
   question.integrand = [&](const Point2& p) {
     return chart.element(p) * function(chart.from_square(p));
@@ -80,7 +82,7 @@ MassIntegral integrate_over(const BinTree& tree, const SamplingPair& pair,
 
 BinnedPair::BinnedPair(const SamplingPair& pair, const ContractOptions& options)
     : pair_(pair),
-      random_(options.seed, 2),
+      random_(random_for(options.seed, Stream::samples)),
       depth_(log2_of(pair.domain.size() > 0 ? pair.domain.size()
                                             : static_cast<std::size_t>(options.finest_bins))) {
   if (pair.domain.size() > 0) {
@@ -108,7 +110,7 @@ void BinnedPair::tabulate_discrete() {
 }
 
 void BinnedPair::integrate_density(const ContractOptions& options) {
-  Random random(options.seed, 1);
+  Random random = random_for(options.seed, Stream::pilot);
   const std::size_t own = draws_for(pair_, kPilotsPerBin << depth_, random);
   std::vector<Point2> pilot = draw_own(pair_, own, random);
   tree_.emplace(pilot, depth_, pair_.domain.dimension());
@@ -131,7 +133,7 @@ MassIntegral integrate_over_domain(const SamplingPair& pair,
                                    const std::function<double(const Vec3&)>& function,
                                    const ContractOptions& options, double error) {
   const int depth = log2_of(static_cast<std::size_t>(options.finest_bins));
-  Random random(options.seed, 19);
+  Random random = random_for(options.seed, Stream::energy_pilot);
   const std::size_t own = draws_for(pair, kPilotsPerBin << depth, random);
   std::vector<Point2> pilot = draw_own(pair, own, random);
   const BinTree tree(pilot, depth, pair.domain.dimension());
@@ -140,7 +142,7 @@ MassIntegral integrate_over_domain(const SamplingPair& pair,
 
 void BinnedPair::measure_rounding(std::uint64_t seed) {
   constexpr int kPoints = 500;
-  Random random(seed, 10);
+  Random random = random_for(seed, Stream::rounding);
   double sum = 0;
   int count = 0;
   for (int i = 0; i < kPoints; ++i) {
@@ -170,7 +172,7 @@ void BinnedPair::draw(std::uint64_t count) {
   counts_.drawn += count;
 }
 
-void BinnedPair::count_atom(const PairSample& sample) {
+void BinnedPair::count_atom(const SampleRecord& sample) {
   for (AtomCount& a : counts_.atoms) {
     if (same_point(a.atom.x, sample.x)) {
       ++a.drawn;

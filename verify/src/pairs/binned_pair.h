@@ -72,7 +72,7 @@ class BinnedPair {
   void tabulate_discrete();
   void measure_rounding(std::uint64_t seed);
   void measure_lines(const std::vector<Point2>& pilot);
-  void count_atom(const PairSample& sample);
+  void count_atom(const SampleRecord& sample);
   void count_point(const Vec3& x);
   std::size_t locate(const Vec3& x) const;
   bool is_stray(const Vec3& x) const;

@@ -118,12 +118,6 @@ std::vector<int> depths_of(int finest) {
 
 }  // namespace
 
-std::string place(const Vec3& x) {
-  std::string text = "(";
-  text += number(x[0]) + ", " + number(x[1]) + ", " + number(x[2]) + ")";
-  return text;
-}
-
 BinTable table_of(const BinnedPair& pair, int depth) {
   const double n = static_cast<double>(pair.counts().drawn);
   const std::size_t bins = std::size_t{1} << depth;

@@ -10,9 +10,6 @@
 
 namespace plumbline::verify {
 
-/// "(0.1, 0.2, 0.97)"
-std::string place(const Vec3& x);
-
 /// Expected and observed counts of the bins of one depth.
 struct BinTable {
   std::vector<double> expected, variance, observed;  ///< variance: of the expected

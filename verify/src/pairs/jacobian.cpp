@@ -6,14 +6,14 @@
 #include <limits>
 #include <optional>
 
-#include "pairs/chi_square_look.h"
+#include "streams.h"
 #include "text.h"
 
 namespace plumbline::verify {
 
 namespace {
 
-using Map = std::function<std::optional<PairSample>(const Uniforms&)>;
+using Map = std::function<std::optional<SampleRecord>(const Uniforms&)>;
 
 constexpr double kDoubleTolerance = 1e-4;
 constexpr double kFloatTolerance = 5e-3;
@@ -137,7 +137,7 @@ class Jacobian {
  public:
   Jacobian(const SamplingPair& pair, const ContractOptions& options)
       : pair_(pair),
-        random_(options.seed, 3),
+        random_(random_for(options.seed, Stream::jacobian)),
         tolerance_(pair.epsilon > 0x1p-40 ? kFloatTolerance : kDoubleTolerance) {
     outcome_.evidence.quotient = "observed/expected";
     outcome_.evidence.denominator = "pdf";
@@ -155,7 +155,7 @@ class Jacobian {
       visit(pair_.sample, pair_.pdf, points);
     } else {
       for (const PairLobe& lobe : pair_.lobes) {
-        if (lobe.probability > 0) visit(lobe.sample, lobe.pdf, points);
+        if (lobe.probability > 0 && lobe.sample) visit(lobe.sample, lobe.pdf, points);
       }
       lobes_fail_ = failing_ > 0;
       check_mixture();
@@ -232,7 +232,9 @@ class Jacobian {
     constexpr int kPoints = 200;
     for (const PairLobe& lobe : pair_.lobes) {
       for (int i = 0; i < kPoints && lobe.probability > 0; ++i) {
-        const auto sample = lobe.sample({draw_uniform(random_), draw_uniform(random_), 0});
+        const auto sample = lobe.sample
+                                ? lobe.sample({draw_uniform(random_), draw_uniform(random_), 0})
+                                : lobe.draw(random_);
         if (!sample || sample->mass > 0) continue;
         double sum = 0;
         for (const PairLobe& l : pair_.lobes) sum += l.probability * l.pdf(sample->x);

@@ -5,9 +5,8 @@
 #include <limits>
 #include <queue>
 
-#include <plumbline/verify/detail/random.h>
-
 #include "bernstein.h"
+#include "streams.h"
 
 namespace plumbline::verify {
 
@@ -44,7 +43,7 @@ struct TreeCell {
 class Integrator {
  public:
   Integrator(const MassQuestion& question, const std::vector<Cell>& cells)
-      : q_(question), random_(question.seed, 21), roots_of_bin_(question.bins) {
+      : q_(question), random_(random_for(question.seed, Stream::nodes)), roots_of_bin_(question.bins) {
     std::vector<std::vector<PilotPoint>> of_bin(q_.bins);
     for (const PilotPoint& s : draw_pilot()) of_bin[bin_at(s.p)].push_back(s);
     std::vector<std::vector<Box>> boxes_of_bin(q_.bins);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pairs/chi_square_look.h"
+#include "streams.h"
 #include "text.h"
 
 namespace plumbline::verify {
@@ -88,7 +88,7 @@ class Pointwise {
  public:
   Pointwise(const SamplingPair& pair, const ContractOptions& options)
       : pair_(pair),
-        random_(options.seed, 4),
+        random_(random_for(options.seed, Stream::pointwise)),
         record_(pair, options, "record_pdf"),
         weight_(pair, options, "weight"),
         support_(pair, options, "support"),
@@ -162,7 +162,7 @@ class Pointwise {
     return false;
   }
 
-  void see(const std::optional<PairSample>& sample, const Uniforms* corner) {
+  void see(const std::optional<SampleRecord>& sample, const Uniforms* corner) {
     if (!sample) return;
     const Vec3& x = sample->x;
     const auto where = [&] {
@@ -193,28 +193,29 @@ class Pointwise {
     return pair_.domain.chart().distance(x) <= kRounding * pair_.epsilon;
   }
 
-  void see_atom(const PairSample& sample) {
-    record_.hold(std::isnan(sample.pdf) || sample.pdf == 0, [&] {
-      return "an atom at " + place(sample.x) + " is given a density, " + number(sample.pdf);
+  void see_atom(const SampleRecord& sample) {
+    record_.hold(!sample.pdf || *sample.pdf == 0, [&] {
+      return "an atom at " + place(sample.x) + " is given a density, " + number(*sample.pdf);
     });
     record_.hold(sample.mass <= 1 + 64 * pair_.epsilon,
                  [&] { return "an atom has mass " + number(sample.mass); });
   }
 
   template <class Where>
-  void see_record(const PairSample& sample, double pdf, const Where& where) {
-    if (std::isnan(sample.pdf)) return;
-    const bool agrees = agree(sample.pdf, pdf, sample.x, pair_.pdf);
+  void see_record(const SampleRecord& sample, double pdf, const Where& where) {
+    if (!sample.pdf) return;
+    const double stated = *sample.pdf;
+    const bool agrees = agree(stated, pdf, sample.x, pair_.pdf);
     record_.hold(agrees, [&] {
-      return "the record states pdf " + number(sample.pdf) + ", pdf() gives " + number(pdf) +
-             " at " + where();
+      return "the record states pdf " + number(stated) + ", pdf() gives " + number(pdf) + " at " +
+             where();
     });
-    record_.ratio(sample.x, sample.pdf / pdf);
-    if (pdf > 0) record_.deviation(std::abs(sample.pdf / pdf - 1));
+    record_.ratio(sample.x, stated / pdf);
+    if (pdf > 0) record_.deviation(std::abs(stated / pdf - 1));
   }
 
   template <class Where>
-  void see_weight(const PairSample& sample, double pdf, const Where& where) {
+  void see_weight(const SampleRecord& sample, double pdf, const Where& where) {
     if (sample.weight.count == 0 || !pair_.value) return;
     const Channels value = pair_.value(sample.x);
     double largest = 0;

@@ -8,12 +8,13 @@
 
 #include "bernstein.h"
 #include "pairs/mass_integral.h"
+#include "streams.h"
 
 namespace plumbline::verify {
 
 namespace {
 
-using Sampler = std::function<std::optional<PairSample>(const Uniforms&)>;
+using Sampler = std::function<std::optional<SampleRecord>(const Uniforms&)>;
 
 // What counting has to reach at 99.9 %: less than half of the promise of 1e-3.
 constexpr double kCountedError = 4e-4;
@@ -32,7 +33,7 @@ class RejectedLines {
         numbers_(numbers),
         last_(1 - epsilon),
         epsilon_(epsilon),
-        random_(seed, 12) {}
+        random_(random_for(seed, Stream::rejected)) {}
 
   RejectedShare measure() {
     MassQuestion question;
@@ -151,7 +152,7 @@ RejectedShare on_grid(const Sampler& sample, int per_side, double epsilon, Rando
 }
 
 RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon, std::uint64_t seed) {
-  Random random(seed, 13);
+  Random random = random_for(seed, Stream::probes);
   const auto rejects = [&] {
     Uniforms u{};
     for (int d = 0; d < numbers; ++d) {
@@ -198,7 +199,7 @@ RejectedShare measure_rejected(const SamplingPair& pair, std::uint64_t seed) {
     return sum;
   }
   if (pair.draw) {
-    Random random(seed, 13);
+    Random random = random_for(seed, Stream::probes);
     return count([&] { return !pair.draw(random); }, kProbes, kMostCounted);
   }
   return of_numbers(pair.sample, pair.numbers, pair.epsilon, seed);

@@ -1,15 +1,11 @@
 #include <plumbline/verify/pair.h>
 
+#include "pairs/uniforms.h"
+
 namespace plumbline::verify {
 
-std::optional<PairSample> SamplingPair::next(Random& random) const {
-  if (draw) return draw(random);
-  Uniforms u{};
-  for (int i = 0; i < numbers; ++i) {
-    u[static_cast<std::size_t>(i)] =
-        epsilon > 0x1p-40 ? static_cast<double>(random.uniform_float()) : random.uniform();
-  }
-  return sample(u);
+std::optional<SampleRecord> SamplingPair::next(Random& random) const {
+  return draw ? draw(random) : sample(draw_uniforms(random, numbers, epsilon));
 }
 
 }  // namespace plumbline::verify

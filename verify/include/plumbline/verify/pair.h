@@ -32,11 +32,11 @@ struct Channels {
 };
 
 /// What a sampler returned.
-struct PairSample {
-  Vec3 x{};                     ///< the point
-  double pdf = kNotApplicable;  ///< density that the record states; NaN: it states none
-  double mass = 0;              ///< > 0: an atom with this probability, not a point of a density
-  Channels weight;              ///< value/pdf that the record states; empty: it states none
+struct SampleRecord {
+  Vec3 x{};                        ///< the point; of a BSDF, wi
+  Channels weight = {};            ///< value/pdf that the record states; empty: it states none
+  std::optional<double> pdf = {};  ///< density that the record states, if it does
+  double mass = 0;                 ///< > 0: an atom with this probability, not a point of a density
 };
 
 /// One lobe of a mixture, as if it were the whole: with probability `probability` the sampler draws
@@ -44,8 +44,15 @@ struct PairSample {
 struct PairLobe {
   std::string name;
   double probability = 1;
-  std::function<std::optional<PairSample>(const Uniforms&)> sample;
+
+  /// Empty where it takes a generator, or more numbers than the domain has dimensions: the Jacobian
+  /// of that lobe is skipped then.
+  std::function<std::optional<SampleRecord>(const Uniforms&)> sample;
+
   std::function<double(const Vec3&)> pdf;
+
+  /// In place of `sample`.
+  std::function<std::optional<SampleRecord>(Random&)> draw = {};
 };
 
 /// A point with probability mass.
@@ -79,10 +86,10 @@ struct SamplingPair {
   double epsilon = 0x1p-53;
 
   /// nullopt: the sample was rejected.
-  std::function<std::optional<PairSample>(const Uniforms&)> sample;
+  std::function<std::optional<SampleRecord>(const Uniforms&)> sample;
 
   /// In place of `sample`, for code that takes a random generator. The Jacobian is skipped then.
-  std::function<std::optional<PairSample>(Random&)> draw;
+  std::function<std::optional<SampleRecord>(Random&)> draw;
 
   std::function<double(const Vec3&)> pdf;
 
@@ -101,22 +108,20 @@ struct SamplingPair {
   std::vector<Suspect> suspects;
 
   /// One sample from the generator, by whichever of `sample` and `draw` there is.
-  std::optional<PairSample> next(Random& random) const;
+  std::optional<SampleRecord> next(Random& random) const;
 };
 
 namespace detail {
 
 template <class P>
-std::optional<PairSample> to_pair_sample(const P& point) {
-  PairSample s;
-  s.x = to_point(point);
-  return s;
+std::optional<SampleRecord> record_of_point(const P& point) {
+  return SampleRecord{to_point(point)};
 }
 
 template <class P>
-std::optional<PairSample> to_pair_sample(const std::optional<P>& point) {
+std::optional<SampleRecord> record_of_point(const std::optional<P>& point) {
   if (!point) return std::nullopt;
-  return to_pair_sample(*point);
+  return record_of_point(*point);
 }
 
 }  // namespace detail
@@ -136,15 +141,15 @@ SamplingPair make_pair(std::string name, Domain domain, Sample sample, Pdf pdf) 
   pair.domain = std::move(domain);
   pair.epsilon = std::is_same_v<T, float> ? 0x1p-24 : 0x1p-53;
   if constexpr (requires(Random & random) { sample(random); }) {
-    pair.draw = [sample](Random& random) { return detail::to_pair_sample(sample(random)); };
+    pair.draw = [sample](Random& random) { return detail::record_of_point(sample(random)); };
   } else if constexpr (requires(T u) { sample(u, u); }) {
     pair.sample = [sample](const Uniforms& u) {
-      return detail::to_pair_sample(sample(static_cast<T>(u[0]), static_cast<T>(u[1])));
+      return detail::record_of_point(sample(static_cast<T>(u[0]), static_cast<T>(u[1])));
     };
   } else {
     pair.numbers = 1;
     pair.sample = [sample](const Uniforms& u) {
-      return detail::to_pair_sample(sample(static_cast<T>(u[0])));
+      return detail::record_of_point(sample(static_cast<T>(u[0])));
     };
   }
   pair.pdf = [pdf](const Vec3& x) { return static_cast<double>(pdf(from_point<Point>(x))); };

@@ -1,9 +1,11 @@
 #pragma once
 
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -35,7 +37,8 @@ struct BsdfConventions {
   Frame frame = Frame::local_z_up;
   Vec3 normal{0, 0, 1};  ///< unit, for Frame::world
 
-  /// A record with pdf 0 means that the sample failed.
+  /// A pdf of 0 means that the sample failed: the one in the record, or where it states none, the
+  /// one that pdf() gives.
   bool zero_pdf_is_failure = false;
 
   /// pdf is per projected solid angle: pdf_w = pdf·|cosθi|.
@@ -51,19 +54,13 @@ struct BsdfConventions {
   Weight weight = Weight::throughput;
 };
 
-/// What a sampled record says, in the checks' own terms.
-struct BsdfRecord {
-  Vec3 wi{};
-  Channels weight;
-  double pdf = kNotApplicable;
-  double mass = 0;
-};
-
 /// A lobe of a BSDF that exposes its lobes.
 struct BsdfLobe {
   std::function<double(const Vec3& wo)> probability;
-  std::function<std::optional<BsdfRecord>(const Vec3& wo, const Uniforms&)> sample;
+  std::function<std::optional<SampleRecord>(const Vec3& wo, const Uniforms&)> sample;
   std::function<double(const Vec3& wo, const Vec3& wi)> pdf;
+  std::function<std::optional<SampleRecord>(const Vec3& wo, Random&)> draw = {};  ///< or `sample`
+  int numbers = 2;  ///< uniform numbers that `sample` takes
 };
 
 /// A BSDF with its types erased and its conventions brought to Plumbline's: local frame, z the
@@ -71,11 +68,14 @@ struct BsdfLobe {
 struct ErasedBsdf {
   double epsilon = 0x1p-53;  ///< rounding unit of its arithmetic
   int numbers = 2;           ///< uniform numbers that sample takes
-  std::function<std::optional<BsdfRecord>(const Vec3& wo, const Uniforms&)> sample;
-  std::function<std::optional<BsdfRecord>(const Vec3& wo, Random&)> draw;  ///< or this
+  std::function<std::optional<SampleRecord>(const Vec3& wo, const Uniforms&)> sample;
+  std::function<std::optional<SampleRecord>(const Vec3& wo, Random&)> draw;  ///< or this
   std::function<double(const Vec3& wo, const Vec3& wi)> pdf;
   std::function<Channels(const Vec3& wo, const Vec3& wi)> eval;
   std::vector<BsdfLobe> lobes;  ///< empty: not exposed
+
+  /// One sample from the generator, by whichever of `sample` and `draw` there is.
+  std::optional<SampleRecord> next(const Vec3& wo, Random& random) const;
 };
 
 /// Brings a BSDF from its author's conventions to Plumbline's.
@@ -83,36 +83,53 @@ ErasedBsdf apply_conventions(ErasedBsdf raw, const BsdfConventions& conventions)
 
 namespace detail {
 
-/// Direction that `pdf` takes and numbers that `sample` takes, where a plain member function says
-/// so.
-template <class F>
-struct MemberArguments {
-  using first = void;
-  using second = void;
+/// Argument number I of a plain function, where its type says so; else void.
+template <std::size_t I, class F>
+struct ArgumentOf {
+  using type = void;
 };
-template <class R, class C, class A, class B, class... Rest>
-struct MemberArguments<R (C::*)(A, B, Rest...) const> {
-  using first = std::remove_cvref_t<A>;
-  using second = std::remove_cvref_t<B>;
+template <std::size_t I, class... A>
+struct NthOf {
+  using type = void;
 };
+template <std::size_t I, class... A>
+requires(I < sizeof...(A)) struct NthOf<I, A...> {
+  using type = std::remove_cvref_t<std::tuple_element_t<I, std::tuple<A...>>>;
+};
+template <std::size_t I, class R, class C, class... A, bool N>
+struct ArgumentOf<I, R (C::*)(A...) const noexcept(N)> : NthOf<I, A...> {};
+template <std::size_t I, class R, class... A, bool N>
+struct ArgumentOf<I, R (*)(A...) noexcept(N)> : NthOf<I, A...> {};
 
+/// Its vector type.
 template <class B, class Given>
 auto direction_type() {
   if constexpr (!std::is_void_v<Given>) {
     return std::type_identity<Given>{};
   } else if constexpr (requires { &B::pdf; }) {
-    return std::type_identity<typename MemberArguments<decltype(&B::pdf)>::first>{};
+    return ArgumentOf<0, decltype(&B::pdf)>{};
   } else {
     return std::type_identity<void>{};
   }
 }
 
+/// Type of the random numbers of `sample`.
 template <class B, class Given>
 auto numbers_type() {
   if constexpr (!std::is_void_v<Given>) {
     return std::type_identity<Given>{};
   } else if constexpr (requires { &B::sample; }) {
-    return std::type_identity<typename MemberArguments<decltype(&B::sample)>::second>{};
+    return ArgumentOf<1, decltype(&B::sample)>{};
+  } else {
+    return std::type_identity<void>{};
+  }
+}
+
+/// Type of the random numbers of `sample_lobe`.
+template <class B>
+auto lobe_numbers_type() {
+  if constexpr (requires { &B::sample_lobe; }) {
+    return ArgumentOf<2, decltype(&B::sample_lobe)>{};
   } else {
     return std::type_identity<void>{};
   }
@@ -126,95 +143,140 @@ concept SeededGenerator = requires(typename G::result_type seed) {
   G::max();
 };
 
-/// How `sample` wants its random numbers.
-enum class NumbersStyle { generator, own_generator, three, two, vector };
+/// `sample` as a function of wo and of what it takes as random numbers. Holds the user's object.
+template <class B>
+struct SampleOf {
+  std::shared_ptr<const B> bsdf;
 
-template <class B, class D, class T, class N>
+  template <class D, class... U>
+  requires requires(const B& b, const D& wo, U&&... u) { b.sample(wo, std::forward<U>(u)...); }
+  auto operator()(const D& wo, U&&... u) const { return bsdf->sample(wo, std::forward<U>(u)...); }
+};
+
+/// The same of one lobe.
+template <class B>
+struct SampleLobeOf {
+  using Index = std::remove_cvref_t<decltype(std::declval<const B&>().lobe_count())>;
+  std::shared_ptr<const B> bsdf;
+  Index lobe;
+
+  template <class D, class... U>
+  requires requires(const B& b, const D& wo, Index i, U&&... u) {
+    b.sample_lobe(wo, i, std::forward<U>(u)...);
+  }
+  auto operator()(const D& wo, U&&... u) const {
+    return bsdf->sample_lobe(wo, lobe, std::forward<U>(u)...);
+  }
+};
+
+/// How a sampler wants its random numbers.
+enum class NumbersStyle { generator, own_generator, three, two, vector, unknown };
+
+template <class Sampler, class D, class N>
 constexpr NumbersStyle numbers_style() {
-  if constexpr (requires(const B& b, const D& d, Random& r) { b.sample(d, r); }) {
+  using T = ScalarOf<D>;
+  if constexpr (std::is_invocable_v<const Sampler&, const D&, Random&>) {
     return NumbersStyle::generator;
-  } else if constexpr (SeededGenerator<N>) {
-    return NumbersStyle::own_generator;
-  } else if constexpr (requires(const B& b, const D& d, T u) { b.sample(d, u, u, u); }) {
+  } else if constexpr (std::is_invocable_v<const Sampler&, const D&, T, T, T>) {
     return NumbersStyle::three;
-  } else if constexpr (requires(const B& b, const D& d, T u) { b.sample(d, u, u); }) {
+  } else if constexpr (std::is_invocable_v<const Sampler&, const D&, T, T>) {
     return NumbersStyle::two;
-  } else {
-    static_assert(!std::is_void_v<N>,
-                  "sample takes neither numbers nor a verify::Random: name the type of its random "
-                  "numbers or of its generator, check_bsdf<Direction, Numbers>(…)");
+  } else if constexpr (std::is_void_v<N>) {
+    return NumbersStyle::unknown;
+  } else if constexpr (SeededGenerator<N>) {
+    return std::is_invocable_v<const Sampler&, const D&, N&> ? NumbersStyle::own_generator
+                                                             : NumbersStyle::unknown;
+  } else if constexpr (std::is_invocable_v<const Sampler&, const D&, const N&>) {
     return NumbersStyle::vector;
-  }
-}
-
-template <class N>
-constexpr int numbers_in_vector() {
-  if constexpr (HasXyz<N>) {
-    return 3;
   } else {
-    return 2;
+    return NumbersStyle::unknown;
   }
 }
 
-template <class B, class D, class T, class N>
-std::vector<BsdfLobe> erase_lobes(const B& bsdf) {
+/// Gives a BSDF or a lobe the `sample` or the `draw` that fits.
+template <class D, class N, class Erased, class Sampler>
+void put_sampler(Erased& e, const Sampler& sampler) {
+  using T = ScalarOf<D>;
+  constexpr NumbersStyle style = numbers_style<Sampler, D, N>();
+  if constexpr (style == NumbersStyle::generator) {
+    e.draw = [sampler](const Vec3& wo, Random& random) {
+      return read_record(sampler(from_vec3<D>(wo), random));
+    };
+  } else if constexpr (style == NumbersStyle::own_generator) {
+    // Seeded for each sample, so that a sample depends on nothing but the check's seed.
+    e.draw = [sampler](const Vec3& wo, Random& random) {
+      N generator(static_cast<typename N::result_type>(random.bits()));
+      return read_record(sampler(from_vec3<D>(wo), generator));
+    };
+  } else if constexpr (style == NumbersStyle::three) {
+    e.numbers = 3;
+    e.sample = [sampler](const Vec3& wo, const Uniforms& u) {
+      return read_record(sampler(from_vec3<D>(wo), static_cast<T>(u[0]), static_cast<T>(u[1]),
+                                 static_cast<T>(u[2])));
+    };
+  } else if constexpr (style == NumbersStyle::two) {
+    e.sample = [sampler](const Vec3& wo, const Uniforms& u) {
+      return read_record(sampler(from_vec3<D>(wo), static_cast<T>(u[0]), static_cast<T>(u[1])));
+    };
+  } else {
+    e.numbers = has_two_components<N>() ? 2 : 3;
+    e.sample = [sampler](const Vec3& wo, const Uniforms& u) {
+      return read_record(sampler(from_vec3<D>(wo), from_point<N>(u)));
+    };
+  }
+}
+
+/// @tparam N  type of the random numbers that was named, if any
+template <class B, class D, class N>
+std::vector<BsdfLobe> erase_lobes(const std::shared_ptr<const B>& bsdf) {
+  using Index = typename SampleLobeOf<B>::Index;
+  using Found = typename decltype(lobe_numbers_type<B>())::type;
+  // A sampler by numbers may have lobes by a vector, and the other way round.
+  constexpr bool fits =
+      numbers_style<SampleLobeOf<B>, D, N>() != NumbersStyle::unknown || std::is_void_v<Found>;
+  using Numbers = std::conditional_t<fits, N, Found>;
+  static_assert(numbers_style<SampleLobeOf<B>, D, Numbers>() != NumbersStyle::unknown,
+                "lobe_count() is there, but no sample_lobe(wo, i, u) is understood: u may be two "
+                "numbers, three, a vector (name its type, check_bsdf<Direction, Numbers>(…), where "
+                "sample_lobe is overloaded or a template), or a generator");
+  static_assert(
+      requires(const B& b, const D& w, Index i) { static_cast<double>(b.pdf_lobe(w, w, i)); },
+      "lobe_count() is there, but no pdf_lobe(wo, wi, i)");
+  static_assert(
+      requires(const B& b, const D& w, Index i) { static_cast<double>(b.lobe_probability(w, i)); },
+      "lobe_count() is there, but no lobe_probability(wo, i)");
   std::vector<BsdfLobe> lobes;
-  const auto count = bsdf.lobe_count();
-  if (count < 2) return lobes;
-  for (std::remove_const_t<decltype(count)> i = 0; i < count; ++i) {
+  const Index count = bsdf->lobe_count();
+  if (count < Index{2}) return lobes;
+  for (Index i{0}; i < count; ++i) {
     BsdfLobe lobe;
     lobe.probability = [bsdf, i](const Vec3& wo) {
-      return static_cast<double>(bsdf.lobe_probability(from_vec3<D>(wo), i));
+      return static_cast<double>(bsdf->lobe_probability(from_vec3<D>(wo), i));
     };
-    lobe.sample = [bsdf, i](const Vec3& wo, const Uniforms& u) {
-      return read_record(bsdf.sample_lobe(from_vec3<D>(wo), i, from_point<N>(u)));
-    };
+    put_sampler<D, Numbers>(lobe, SampleLobeOf<B>{bsdf, i});
     lobe.pdf = [bsdf, i](const Vec3& wo, const Vec3& wi) {
-      return static_cast<double>(bsdf.pdf_lobe(from_vec3<D>(wo), from_vec3<D>(wi), i));
+      return static_cast<double>(bsdf->pdf_lobe(from_vec3<D>(wo), from_vec3<D>(wi), i));
     };
     lobes.push_back(std::move(lobe));
   }
   return lobes;
 }
 
-template <class B, class D, class T, class N>
-ErasedBsdf erase(const B& bsdf) {
-  constexpr NumbersStyle style = numbers_style<B, D, T, N>();
+template <class B, class D, class N>
+ErasedBsdf erase(const std::shared_ptr<const B>& bsdf) {
+  static_assert(numbers_style<SampleOf<B>, D, N>() != NumbersStyle::unknown,
+                "sample takes neither numbers nor a verify::Random: name the type of its random "
+                "numbers or of its generator, check_bsdf<Direction, Numbers>(…)");
   ErasedBsdf e;
-  e.epsilon = std::is_same_v<T, float> ? 0x1p-24 : 0x1p-53;
+  e.epsilon = std::is_same_v<ScalarOf<D>, float> ? 0x1p-24 : 0x1p-53;
+  put_sampler<D, N>(e, SampleOf<B>{bsdf});
   e.pdf = [bsdf](const Vec3& wo, const Vec3& wi) {
-    return static_cast<double>(bsdf.pdf(from_vec3<D>(wo), from_vec3<D>(wi)));
+    return static_cast<double>(bsdf->pdf(from_vec3<D>(wo), from_vec3<D>(wi)));
   };
   e.eval = [bsdf](const Vec3& wo, const Vec3& wi) {
-    return to_channels(bsdf.eval(from_vec3<D>(wo), from_vec3<D>(wi)));
+    return to_channels(bsdf->eval(from_vec3<D>(wo), from_vec3<D>(wi)));
   };
-  if constexpr (style == NumbersStyle::generator) {
-    e.draw = [bsdf](const Vec3& wo, Random& random) {
-      return read_record(bsdf.sample(from_vec3<D>(wo), random));
-    };
-  } else if constexpr (style == NumbersStyle::own_generator) {
-    // Seeded for each sample, so that a sample depends on nothing but the check's seed.
-    e.draw = [bsdf](const Vec3& wo, Random& random) {
-      N generator(static_cast<typename N::result_type>(random.bits()));
-      return read_record(bsdf.sample(from_vec3<D>(wo), generator));
-    };
-  } else if constexpr (style == NumbersStyle::three) {
-    e.numbers = 3;
-    e.sample = [bsdf](const Vec3& wo, const Uniforms& u) {
-      return read_record(bsdf.sample(from_vec3<D>(wo), static_cast<T>(u[0]), static_cast<T>(u[1]),
-                                     static_cast<T>(u[2])));
-    };
-  } else if constexpr (style == NumbersStyle::two) {
-    e.sample = [bsdf](const Vec3& wo, const Uniforms& u) {
-      return read_record(bsdf.sample(from_vec3<D>(wo), static_cast<T>(u[0]), static_cast<T>(u[1])));
-    };
-  } else {
-    e.numbers = numbers_in_vector<N>();
-    e.sample = [bsdf](const Vec3& wo, const Uniforms& u) {
-      return read_record(bsdf.sample(from_vec3<D>(wo), from_point<N>(u)));
-    };
-    if constexpr (requires { bsdf.lobe_count(); }) e.lobes = erase_lobes<B, D, T, N>(bsdf);
-  }
+  if constexpr (requires { bsdf->lobe_count(); }) e.lobes = erase_lobes<B, D, N>(bsdf);
   return e;
 }
 
@@ -230,14 +292,23 @@ ErasedBsdf erase(const B& bsdf) {
 ///   eval(wo, wi)    a number, or a colour with r, g, b or x, y, z, or anything with size() and [],
 /// and, if it exposes its lobes,
 ///   lobe_count(), lobe_probability(wo, i), sample_lobe(wo, i, u), pdf_lobe(wo, wi, i).
-/// It is copied.
-template <class Direction = void, class Numbers = void, class B>
-ErasedBsdf erase_bsdf(const B& bsdf, const BsdfConventions& conventions = {}) {
+/// The object is held, not copied, and must not change.
+template <class Direction = void, class Numbers = void, class MaybeConst>
+ErasedBsdf erase_bsdf(const std::shared_ptr<MaybeConst>& bsdf,
+                      const BsdfConventions& conventions = {}) {
+  using B = std::remove_const_t<MaybeConst>;
   using D = typename decltype(detail::direction_type<B, Direction>())::type;
   static_assert(!std::is_void_v<D>,
                 "pdf is a template or overloaded: name the vector type, check_bsdf<Direction>(…)");
   using N = typename decltype(detail::numbers_type<B, Numbers>())::type;
-  return apply_conventions(detail::erase<B, D, ScalarOf<D>, N>(bsdf), conventions);
+  return apply_conventions(detail::erase<B, D, N>(std::shared_ptr<const B>(bsdf)), conventions);
+}
+
+/// The same; the object is copied once.
+template <class Direction = void, class Numbers = void, class B>
+ErasedBsdf erase_bsdf(const B& bsdf, const BsdfConventions& conventions = {}) {
+  return erase_bsdf<Direction, Numbers>(std::shared_ptr<const B>(std::make_shared<B>(bsdf)),
+                                        conventions);
 }
 
 }  // namespace plumbline::verify

@@ -11,8 +11,6 @@
 /// Reading what samplers of other projects return, by the names that they use.
 namespace plumbline::verify {
 
-struct BsdfRecord;
-
 /// A colour or spectrum: a number, r g b, x y z, or anything with size() and [].
 template <class C>
 Channels to_channels(const C& c) {
@@ -69,14 +67,15 @@ Channels record_weight(const R& r) {
   }
 }
 
+/// A NaN that the code under test states is a statement too, and a wrong one.
 template <class R>
-double record_pdf(const R& r) {
+std::optional<double> record_pdf(const R& r) {
   if constexpr (requires { static_cast<double>(r.pdf_w); }) {
     return static_cast<double>(r.pdf_w);
   } else if constexpr (requires { static_cast<double>(r.pdf); }) {
     return static_cast<double>(r.pdf);
   } else {
-    return kNotApplicable;
+    return std::nullopt;
   }
 }
 
@@ -92,17 +91,14 @@ bool record_is_delta(const R& r) {
 }
 
 /// A record that says only that it is an atom states the probability as its pdf.
-template <class Record, class R>
-std::optional<Record> read_plain_record(const R& r) {
-  Record out;
-  out.wi = record_direction(r);
-  out.weight = record_weight(r);
-  out.pdf = record_pdf(r);
+template <class R>
+SampleRecord read_plain_record(const R& r) {
+  SampleRecord out{record_direction(r), record_weight(r), record_pdf(r)};
   if constexpr (requires { static_cast<double>(r.mass); }) {
     out.mass = static_cast<double>(r.mass);
   } else if (record_is_delta(r)) {
-    out.mass = out.pdf;
-    out.pdf = 0;
+    out.mass = out.pdf.value_or(kNotApplicable);
+    out.pdf = std::nullopt;
   }
   return out;
 }
@@ -110,13 +106,13 @@ std::optional<Record> read_plain_record(const R& r) {
 }  // namespace detail
 
 /// A record, or an optional or pointer to one; empty stands for a failed sample.
-template <class Record = BsdfRecord, class R>
-std::optional<Record> read_record(const R& r) {
+template <class R>
+std::optional<SampleRecord> read_record(const R& r) {
   if constexpr (requires { static_cast<bool>(r), *r; }) {
     if (!static_cast<bool>(r)) return std::nullopt;
-    return detail::read_plain_record<Record>(*r);
+    return detail::read_plain_record(*r);
   } else {
-    return detail::read_plain_record<Record>(r);
+    return detail::read_plain_record(r);
   }
 }
 

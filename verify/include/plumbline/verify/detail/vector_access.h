@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -81,6 +82,32 @@ concept HasXy = requires(const P& p) {
 
 namespace detail {
 
+/// Two components, also where operator[] would make it look like three.
+template <class P>
+constexpr bool has_two_components() {
+  if constexpr (requires { std::tuple_size<P>::value; }) {
+    return std::tuple_size<P>::value == 2;
+  } else if constexpr (requires { P::SizeAtCompileTime; }) {
+    return static_cast<int>(P::SizeAtCompileTime) == 2;
+  } else if constexpr (HasXy<P> || HasXyz<P>) {
+    return !HasXyz<P>;
+  } else {
+    using T = std::remove_cvref_t<decltype(std::declval<const P&>()[0])>;
+    return requires(T t) { P{t, t}; }
+    &&!requires(T t) { P{t, t, t}; };
+  }
+}
+
+/// One of two components.
+template <class P>
+auto plane_component(const P& p, int i) {
+  if constexpr (HasXy<P>) {
+    return i == 0 ? p.x : p.y;
+  } else {
+    return p[static_cast<std::size_t>(i)];
+  }
+}
+
 template <class P>
 auto point_scalar(const P& p) {
   if constexpr (std::is_arithmetic_v<P>) {
@@ -104,10 +131,11 @@ template <class P>
 Vec3 to_point(const P& p) {
   if constexpr (std::is_arithmetic_v<P>) {
     return {static_cast<double>(p), 0, 0};
-  } else if constexpr (Vector3<P>) {
-    return to_vec3(p);
+  } else if constexpr (detail::has_two_components<P>()) {
+    return {static_cast<double>(detail::plane_component(p, 0)),
+            static_cast<double>(detail::plane_component(p, 1)), 0};
   } else {
-    return {static_cast<double>(p.x), static_cast<double>(p.y), 0};
+    return to_vec3(p);
   }
 }
 
@@ -115,17 +143,18 @@ template <class P>
 P from_point(const Vec3& x) {
   if constexpr (std::is_arithmetic_v<P>) {
     return static_cast<P>(x[0]);
-  } else if constexpr (Vector3<P>) {
-    return from_vec3<P>(x);
-  } else {
+  } else if constexpr (detail::has_two_components<P>()) {
     using T = PointScalar<P>;
-    if constexpr (requires { P{T{}, T{}}; }) {
-      return P{static_cast<T>(x[0]), static_cast<T>(x[1])};
+    const T first = static_cast<T>(x[0]), second = static_cast<T>(x[1]);
+    if constexpr (requires { P{first, second}; }) {
+      return P{first, second};
     } else {
       P p;
-      p.x = static_cast<T>(x[0]), p.y = static_cast<T>(x[1]);
+      p.x = first, p.y = second;
       return p;
     }
+  } else {
+    return from_vec3<P>(x);
   }
 }
 

@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <plumbline/verify/bsdf.h>
+
+#include "bsdfs/bsdf_result.h"
+#include "pairs/binned_pair.h"
+#include "streams.h"
+#include "text.h"
+#include "vec3.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+/// Part of the albedo that atoms carry, in one channel, freed of η².
+double atoms_albedo(const SamplingPair& pair, const Vec3& wo, double eta, std::size_t channel,
+                    std::uint64_t seed) {
+  Random random = random_for(seed, Stream::atoms_albedo);
+  std::vector<Vec3> seen;
+  double sum_of_atoms = 0;
+  for (int i = 0; i < kAtomProbes; ++i) {
+    const auto s = pair.next(random);
+    if (!s || s->mass == 0 || s->weight.count <= channel) continue;
+    const bool known = std::any_of(seen.begin(), seen.end(), [&](const Vec3& x) {
+      return length(sum(x, scaled(s->x, -1))) < 1e-5;
+    });
+    if (known) continue;
+    seen.push_back(s->x);
+    sum_of_atoms += s->mass * s->weight[channel] * eta_squared(s->x, eta) / eta_squared(wo, eta);
+  }
+  return sum_of_atoms;
+}
+
+/// Channel with the largest mean weight.
+std::size_t brightest_channel(const SamplingPair& pair, std::uint64_t seed) {
+  Random random = random_for(seed, Stream::channel);
+  std::array<double, Channels::kMost> sums{};
+  for (int i = 0; i < kAtomProbes; ++i) {
+    const auto s = pair.next(random);
+    for (std::size_t c = 0; s && c < s->weight.count; ++c) sums[c] += s->weight[c];
+  }
+  return static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+}
+
+}  // namespace
+
+CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const Vec3& wo,
+                         const BsdfOptions& options) {
+  const SamplingPair pair = bsdf_pair(name, bsdf, wo, options);
+  const std::uint64_t seed = options.contract.seed;
+  const std::size_t channel = options.albedo ? 0 : brightest_channel(pair, seed);
+  const auto value = [&](const Vec3& wi) {
+    const double scale = eta_squared(wi, options.eta) / eta_squared(wo, options.eta);
+    return pair.value(wi)[channel] * scale;
+  };
+  const MassIntegral integral =
+      integrate_over_domain(pair, value, options.contract, options.energy_tolerance / 4);
+  const double atoms = atoms_albedo(pair, wo, options.eta, channel, seed);
+
+  CheckResult r = bsdf_result("energy", name, options.contract);
+  r.estimate = integral.total + atoms;
+  r.reference = options.albedo ? options.albedo(wo) : 1.0;
+  r.tolerance = options.energy_tolerance;
+  const ErrorBudget& budget = options.contract.budget;
+  const double known_to = integral.error(budget.pass_level());
+  const double sure_to = integral.error(budget.fail_level());
+  r.interval_low = r.estimate - known_to;
+  r.interval_high = r.estimate + known_to;
+  r.leaned_on = "random nodes, empirical Bernstein bound";
+  r.figures = {{"from atoms", atoms}, {"error of the integral", known_to}};
+  const double excess =
+      options.albedo ? std::abs(r.estimate - r.reference) : r.estimate - r.reference;
+  r.bound = std::max(0.0, excess + known_to);
+  if (!(excess - sure_to <= r.tolerance)) {
+    r.verdict = Verdict::fail;
+    r.reason = "the albedo is " + number(r.estimate) +
+               (options.albedo ? ", it should be " + number(r.reference) : ", more than 1");
+  } else if (r.bound <= r.tolerance) {
+    r.verdict = Verdict::pass;
+  } else {
+    r.reason = "the albedo is known to " + number(known_to) + " only: allow more `evaluations`";
+  }
+  return r;
+}
+
+}  // namespace plumbline::verify

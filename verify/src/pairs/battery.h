@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include <plumbline/verify/pair.h>
+
+#include "diagnosis/diagnosis.h"
+
+namespace plumbline::verify {
+
+struct PairOutcome {
+  std::vector<CheckResult> results;
+  Diagnosis cause;
+  bool nothing = false;  ///< every sample was rejected: whatever passed looked at nothing
+  bool atoms = false;    ///< some are known, or were sampled
+};
+
+/// check_pair, with the diagnosis as numbers and without the result that stands for `nothing`:
+/// black from one direction may be right.
+PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options);
+
+/// Inconclusive: nothing is wrong with black, and every check of it passes, but more often than not
+/// something else is meant.
+///
+/// @param advice  what may be wrong, for a person
+CheckResult nothing_sampled(const std::string& name, const ContractOptions& options,
+                            const std::string& advice);
+
+}  // namespace plumbline::verify
