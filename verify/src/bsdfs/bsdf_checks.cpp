@@ -6,7 +6,8 @@
 
 #include <plumbline/verify/bsdf.h>
 
-#include "diagnosis/asymmetry_diagnosis.h"
+#include "bsdfs/bsdf_checks.h"
+#include "diagnosis/diagnosis.h"
 #include "pairs/binned_pair.h"
 #include "pairs/chi_square_look.h"
 #include "text.h"
@@ -58,7 +59,7 @@ class Reciprocity {
   Reciprocity(const std::string& name, const ErasedBsdf& bsdf, const BsdfOptions& options)
       : bsdf_(bsdf), options_(options), result_(result_of("reciprocity", name, options.contract)) {}
 
-  CheckResult run() {
+  ReciprocityOutcome run() {
     Random random(options_.contract.seed, 5);
     for (int i = 0; i < kReciprocityPairs; ++i) {
       const Vec3 wo = random_direction(random);
@@ -72,11 +73,10 @@ class Reciprocity {
     result_.leaned_on = "points tested";
     result_.verdict = failed_ == 0 ? Verdict::pass : Verdict::fail;
     if (failed_ > 0) {
-      result_.diagnosis = asymmetry_.diagnosis();
       result_.reason += " (" + number(std::uint64_t(failed_)) + " of " +
                         number(std::uint64_t(pairs_)) + " pairs fail)";
     }
-    return result_;
+    return {std::move(result_), std::move(seen_)};
   }
 
  private:
@@ -85,7 +85,7 @@ class Reciprocity {
     const double eta_o = eta_squared(wo, options_.eta), eta_i = eta_squared(wi, options_.eta);
     ++pairs_;
     if (there.count > 0) {
-      asymmetry_.add({wo, wi, there[0] / eta_o / (back[0] / eta_i), eta_i / eta_o});
+      keep(wo, wi, there[0] / eta_o / (back[0] / eta_i));
     }
     for (std::size_t c = 0; c < there.count; ++c) {
       const double a = there[c] / eta_o, b = back[c] / eta_i;
@@ -104,10 +104,31 @@ class Reciprocity {
     }
   }
 
+  void keep(const Vec3& wo, const Vec3& wi, double ratio) {
+    if (!(ratio > 0) || !std::isfinite(ratio)) return;
+    const double error = rounding_at(wo, wi) + rounding_at(wi, wo) + 256 * bsdf_.epsilon;
+    seen_.push_back({wo, wi, ratio, std::isfinite(error) ? error : 1.0});
+  }
+
+  /// What rounding of either direction may change f by, relative.
+  double rounding_at(const Vec3& wo, const Vec3& wi) const {
+    const auto chart = Domain::sphere();
+    const double here = bsdf_.eval(wo, wi)[0];
+    double spread = 0;
+    for (int k = 0; k < 4; ++k) {
+      const double angle = k * std::numbers::pi / 2;
+      const Vec3 i = chart.chart().near(wi, 8 * bsdf_.epsilon, angle);
+      const Vec3 o = chart.chart().near(wo, 8 * bsdf_.epsilon, angle);
+      spread = std::max({spread, std::abs(bsdf_.eval(wo, i)[0] / here - 1),
+                         std::abs(bsdf_.eval(o, wi)[0] / here - 1)});
+    }
+    return spread;
+  }
+
   const ErasedBsdf& bsdf_;
   const BsdfOptions& options_;
   CheckResult result_;
-  Asymmetry asymmetry_;
+  std::vector<ReciprocityAt> seen_;
   int pairs_ = 0, failed_ = 0;
   double worst_ = 0;
 };
@@ -153,7 +174,25 @@ double distance_from_law(const Vec3& wo, const Vec3& wi, double eta) {
 
 CheckResult check_reciprocity(const std::string& name, const ErasedBsdf& bsdf,
                               const BsdfOptions& options) {
+  ReciprocityOutcome outcome = judge_reciprocity(name, bsdf, options);
+  if (outcome.result.verdict == Verdict::fail) {
+    outcome.result.diagnosis = diagnose({{}, std::move(outcome.pairs), {}}).headline;
+  }
+  return outcome.result;
+}
+
+ReciprocityOutcome judge_reciprocity(const std::string& name, const ErasedBsdf& bsdf,
+                                     const BsdfOptions& options) {
   return Reciprocity(name, bsdf, options).run();
+}
+
+AlbedoAt albedo_seen(const CheckResult& energy, const Vec3& wo, const BsdfOptions& options) {
+  AlbedoAt seen;
+  seen.wo = wo;
+  seen.albedo = energy.estimate;
+  seen.error = (energy.interval_high - energy.interval_low) / 2;
+  if (options.albedo) seen.known = energy.reference;
+  return seen;
 }
 
 CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const Vec3& wo,

@@ -5,8 +5,7 @@
 
 #include <plumbline/verify/pair.h>
 
-#include "diagnosis/constant_diagnosis.h"
-#include "diagnosis/diagnosis.h"
+#include "pairs/battery.h"
 #include "pairs/binned_pair.h"
 #include "pairs/chi_square_look.h"
 #include "pairs/integral_check.h"
@@ -18,70 +17,89 @@ namespace plumbline::verify {
 
 namespace {
 
-/// What the bins show, at the finest level that still counts at least 100 in most of them.
-RatioEvidence bin_evidence(const BinnedPair& binned) {
+/// The bins at the finest level that still counts about 100 in each.
+std::vector<BinSeen> bins_seen(const BinnedPair& binned) {
   constexpr double kCountsPerBin = 100;
-  RatioEvidence e;
-  e.quotient = "observed/expected";
-  e.denominator = "pdf";
   const double n = static_cast<double>(binned.counts().drawn);
-  e.strays = binned.counts().strays;
-  e.stray_share = static_cast<double>(binned.counts().stray) / n;
-  const int depth = std::clamp(static_cast<int>(std::log2(n / kCountsPerBin)), 0, binned.depth());
+  const int depth =
+      std::clamp(static_cast<int>(std::log2(n / kCountsPerBin)), 0, binned.depth());
   const BinTable table = table_of(binned, depth);
-  for (std::size_t i = 0; i < table.expected.size(); ++i) {
-    if (table.observed[i] < kCountsPerBin / 4 || !(table.expected[i] > 0)) continue;
-    // A logarithm of a count has variance 1/count.
-    e.points.push_back(
-        {binned.center(depth, i), table.observed[i] / table.expected[i], table.observed[i]});
+  const int finer = binned.depth() - depth;
+  std::vector<BinSeen> bins(table.expected.size());
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    bins[i].observed = table.observed[i];
+    bins[i].expected = table.expected[i];
+    double error2 = 0, total = 0;
+    for (std::size_t fine = i << finer; fine < (i + 1) << finer; ++fine) {
+      if (fine >= binned.expected().value.size()) continue;
+      // Errors of cells are bounds rather than standard errors.
+      error2 += std::pow(n * binned.expected().error[fine] / 3, 2);
+      for (const auto& [x, share] : binned.nodes_of(fine)) {
+        bins[i].nodes.push_back(x);
+        bins[i].shares.push_back(share);
+        total += share;
+      }
+    }
+    bins[i].expected_error = std::sqrt(error2);
+    for (double& share : bins[i].shares) share = total > 0 ? share / total : 0;
   }
-  e.noise = 1;
-  return e;
+  return bins;
 }
 
-/// All failing results of a pair get the best of the diagnoses: they share one cause more often
-/// than not.
-class Cause {
- public:
-  void consider(const SamplingPair& pair, const RatioEvidence& evidence) {
-    Diagnosis found = diagnose(pair, evidence);
-    // Exact ratios come first and are not outdone by a fit to noise.
-    if (!found.text.empty() && found.r_squared > best_.r_squared + 0.01) best_ = std::move(found);
-  }
-  const Diagnosis& best() const { return best_; }
-
- private:
-  Diagnosis best_;
-};
+MassSeen mass_seen(const BinnedPair& binned, const RejectedShare& rejected,
+                   const ContractOptions& options) {
+  const MassBalance mass = balance_mass(binned, rejected, options.budget.fail_level());
+  MassSeen seen;
+  seen.integral = mass.integral;
+  seen.integral_error = mass.integral_error + (options.mass_tolerance + binned.rounding());
+  seen.atoms = mass.atoms;
+  seen.rejected = mass.rejected.value;
+  seen.rejected_error = mass.rejected.error;
+  return seen;
+}
 
 }  // namespace
 
 PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options) {
   std::vector<CheckResult> results;
-  Cause cause;
+  ViewEvidence view;
+  view.pair = &pair;
   for (PointwiseOutcome& outcome : judge_pointwise(pair, options)) {
-    if (outcome.result.verdict == Verdict::fail) cause.consider(pair, outcome.evidence);
+    if (!outcome.ratios.points.empty()) view.ratios.push_back(std::move(outcome.ratios));
     results.push_back(std::move(outcome.result));
   }
   JacobianOutcome jacobian = judge_jacobian(pair, options);
-  if (jacobian.result.verdict == Verdict::fail) cause.consider(pair, jacobian.evidence);
+  for (RatioSeries& s : jacobian.ratios) view.ratios.push_back(std::move(s));
   results.push_back(std::move(jacobian.result));
 
   BinnedPair binned(pair, options.finest_bins, options.mass_tolerance / 2, options.seed);
   const RejectedShare rejected = measure_rejected(pair, options.seed);
   CheckResult chi_square = run_chi_square(options, binned, rejected);
   results.push_back(judge_integral(options, binned, rejected));
-  if (chi_square.verdict == Verdict::fail) cause.consider(pair, bin_evidence(binned));
   results.push_back(std::move(chi_square));
+  view.samples = static_cast<double>(binned.counts().drawn);
+  view.bins = bins_seen(binned);
+  view.mass = mass_seen(binned, rejected, options);
+  view.strays = binned.counts().strays;
+  view.stray_share = static_cast<double>(binned.counts().stray) / std::max(1.0, view.samples);
+  for (const CheckResult& r : results) view.failed = view.failed || r.verdict == Verdict::fail;
+  return {std::move(results), std::move(view)};
+}
 
+void name_cause(const Cause& cause, std::vector<CheckResult>& results) {
+  std::string text = cause.headline;
+  if (!cause.second.empty()) text += "; or: " + cause.second;
   for (CheckResult& r : results) {
-    if (r.verdict == Verdict::fail) r.diagnosis = cause.best().text;
+    if (r.verdict == Verdict::fail) r.diagnosis = text;
   }
-  return {std::move(results), cause.best()};
 }
 
 std::vector<CheckResult> check_pair(const SamplingPair& pair, const ContractOptions& options) {
-  return judge_pair(pair, options).results;
+  PairOutcome outcome = judge_pair(pair, options);
+  if (outcome.view.failed) {
+    name_cause(diagnose({{std::move(outcome.view)}, {}, {}}), outcome.results);
+  }
+  return std::move(outcome.results);
 }
 
 }  // namespace plumbline::verify

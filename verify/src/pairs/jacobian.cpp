@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "diagnosis/diagnosis.h"
 #include "pairs/chi_square_look.h"
 #include "text.h"
 
@@ -139,8 +140,6 @@ class Jacobian {
       : pair_(pair),
         random_(options.seed, 3),
         tolerance_(pair.epsilon > 0x1p-40 ? kFloatTolerance : kDoubleTolerance) {
-    outcome_.evidence.quotient = "observed/expected";
-    outcome_.evidence.denominator = "pdf";
     CheckResult& r = outcome_.result;
     r.check = "jacobian";
     r.subject = pair.name + "/jacobian";
@@ -154,16 +153,17 @@ class Jacobian {
     if (pair_.lobes.empty()) {
       visit(pair_.sample, pair_.pdf, points);
     } else {
-      for (const PairLobe& lobe : pair_.lobes) {
+      for (std::size_t i = 0; i < pair_.lobes.size(); ++i) {
+        const PairLobe& lobe = pair_.lobes[i];
+        lobe_ = static_cast<int>(i);
         if (lobe.probability > 0) visit(lobe.sample, lobe.pdf, points);
       }
-      lobes_fail_ = failing_ > 0;
+      lobe_ = -1;
       check_mixture();
     }
-    outcome_.evidence.points =
-        pair_.lobes.empty() || lobes_fail_ ? std::move(of_lobes_) : std::move(of_mixture_);
-    outcome_.evidence.stray_share =
-        static_cast<double>(outcome_.evidence.strays.size()) / std::max(1.0, usable_);
+    for (RatioSeries* s : {&of_lobes_, &of_whole_}) {
+      if (!s->points.empty()) outcome_.ratios.push_back(std::move(*s));
+    }
     finish();
     return std::move(outcome_);
   }
@@ -188,7 +188,7 @@ class Jacobian {
         ++folds_;
         continue;
       }
-      count(sample->x, pdf(sample->x), *density, of_lobes_);
+      count(sample->x, pdf(sample->x), *density);
     }
   }
 
@@ -214,12 +214,13 @@ class Jacobian {
     return sum;
   }
 
-  void count(const Vec3& x, double pdf, const Determinant& density,
-             std::vector<RatioPoint>& ratios) {
+  void count(const Vec3& x, double pdf, const Determinant& density) {
     ++usable_;
-    if (pdf == 0) outcome_.evidence.strays.push_back(x);
     const double error = std::abs(pdf / density.value - 1);
-    ratios.push_back({x, density.value / pdf, 1});
+    RatioSeries& ratios = lobe_ >= 0 ? of_lobes_ : of_whole_;
+    // A sum of densities is known as well as they are rounded.
+    const double known = std::max(density.relative_error, 256 * pair_.epsilon);
+    ratios.points.push_back({x, density.value / pdf, known, lobe_});
     if (!(error <= worst_)) {
       worst_ = error;
       worst_at_ = x;
@@ -237,7 +238,7 @@ class Jacobian {
         double sum = 0;
         for (const PairLobe& l : pair_.lobes) sum += l.probability * l.pdf(sample->x);
         ++tried_;
-        count(sample->x, pair_.pdf(sample->x), {sum, 0}, of_mixture_);
+        count(sample->x, pair_.pdf(sample->x), {sum, 0});
       }
     }
   }
@@ -273,8 +274,9 @@ class Jacobian {
   double tried_ = 0, usable_ = 0, folds_ = 0, failing_ = 0;
   double worst_ = 0;
   Vec3 worst_at_{};
-  std::vector<RatioPoint> of_lobes_, of_mixture_;
-  bool lobes_fail_ = false;
+  int lobe_ = -1;  // that points are counted for
+  RatioSeries of_whole_{RatioKind::density_over_pdf, {}};
+  RatioSeries of_lobes_{RatioKind::lobe_density_over_pdf, {}};
 };
 
 }  // namespace
@@ -298,7 +300,11 @@ JacobianOutcome judge_jacobian(const SamplingPair& pair, const ContractOptions& 
 CheckResult check_jacobian(const SamplingPair& pair, const ContractOptions& options) {
   JacobianOutcome outcome = judge_jacobian(pair, options);
   if (outcome.result.verdict == Verdict::fail) {
-    outcome.result.diagnosis = diagnose(pair, outcome.evidence).text;
+    ViewEvidence view;
+    view.pair = &pair;
+    view.ratios = std::move(outcome.ratios);
+    view.failed = true;
+    outcome.result.diagnosis = diagnose({{std::move(view)}, {}, {}}).headline;
   }
   return outcome.result;
 }
