@@ -1,13 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include <plumbline/verify/bsdf.h>
 
-#include "diagnosis/constant_diagnosis.h"
+#include "bsdfs/bsdf_checks.h"
+#include "diagnosis/diagnosis.h"
 #include "pairs/battery.h"
 #include "streams.h"
 #include "text.h"
@@ -70,20 +72,25 @@ BsdfOptions for_view(BsdfOptions options, std::size_t view) {
 std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& bsdf,
                                     const BsdfOptions& options) {
   std::vector<CheckResult> all;
-  ConstantByView constants;
+  ReportEvidence evidence;
+  std::deque<SamplingPair> pairs;  // what the evidence points to
   const std::vector<View> views = views_of(options);
   bool black = true;  // which from some directions may be right, from all is most likely not
   for (std::size_t i = 0; i < views.size(); ++i) {
     const View& view = views[i];
     const BsdfOptions here = for_view(options, i);
     const std::string subject = name + "/" + view.name;
-    const SamplingPair pair = bsdf_pair(subject, bsdf, view.wo, here);
+    const SamplingPair& pair = pairs.emplace_back(bsdf_pair(subject, bsdf, view.wo, here));
     PairOutcome outcome = judge_pair(pair, here.contract);
     black = black && outcome.nothing;
-    constants.add(view.wo, outcome.cause);
+    outcome.view.wo = view.wo;
+    outcome.view.bsdf = &bsdf;
+    outcome.view.eta = options.eta;
+    evidence.views.push_back(std::move(outcome.view));
     std::vector<CheckResult>& results = outcome.results;
     if (options.conserves_energy || options.albedo) {
       results.push_back(check_energy(subject, bsdf, view.wo, here));
+      evidence.albedos.push_back(albedo_seen(results.back(), view.wo, options));
     }
     if (outcome.atoms) results.push_back(check_atoms(subject, bsdf, view.wo, here));
     for (CheckResult& r : results) {
@@ -91,12 +98,15 @@ std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& b
       all.push_back(std::move(r));
     }
   }
-  if (options.reciprocal) all.push_back(check_reciprocity(name, bsdf, options));
-  if (black) all.push_back(nothing_sampled(name, options.contract, kBlackEverywhere));
-  const std::string of_view = constants.diagnosis();
-  for (CheckResult& r : all) {
-    if (!of_view.empty() && !r.diagnosis.empty()) r.diagnosis = of_view;
+  if (options.reciprocal) {
+    ReciprocityOutcome outcome = judge_reciprocity(name, bsdf, options);
+    evidence.reciprocity = std::move(outcome.pairs);
+    all.push_back(std::move(outcome.result));
   }
+  if (black) all.push_back(nothing_sampled(name, options.contract, kBlackEverywhere));
+  const bool failed = std::any_of(all.begin(), all.end(),
+                                  [](const CheckResult& r) { return r.verdict == Verdict::fail; });
+  if (failed) name_cause(diagnose(evidence), all);
   return all;
 }
 

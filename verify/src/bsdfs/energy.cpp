@@ -6,6 +6,7 @@
 
 #include <plumbline/verify/bsdf.h>
 
+#include "bsdfs/bsdf_checks.h"
 #include "bsdfs/bsdf_result.h"
 #include "pairs/binned_pair.h"
 #include "streams.h"
@@ -47,6 +48,15 @@ std::size_t brightest_channel(const SamplingPair& pair, std::uint64_t seed) {
 }
 
 }  // namespace
+
+AlbedoAt albedo_seen(const CheckResult& energy, const Vec3& wo, const BsdfOptions& options) {
+  AlbedoAt seen;
+  seen.wo = wo;
+  seen.albedo = energy.estimate;
+  seen.error = (energy.interval_high - energy.interval_low) / 2;
+  if (options.albedo) seen.known = energy.reference;
+  return seen;
+}
 
 CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const Vec3& wo,
                          const BsdfOptions& options) {

@@ -7,8 +7,9 @@
 
 #include <plumbline/verify/bsdf.h>
 
+#include "bsdfs/bsdf_checks.h"
 #include "bsdfs/bsdf_result.h"
-#include "diagnosis/asymmetry_diagnosis.h"
+#include "diagnosis/diagnosis.h"
 #include "rounding.h"
 #include "streams.h"
 #include "text.h"
@@ -54,7 +55,7 @@ class Reciprocity {
         options_(options),
         result_(bsdf_result("reciprocity", name, options.contract)) {}
 
-  CheckResult run() {
+  ReciprocityOutcome run() {
     for (const BothWays& pair : draw_pairs()) judge(pair);
     result_.reference = 0;
     result_.tolerance = stated_tolerance(bsdf_.epsilon);
@@ -63,7 +64,6 @@ class Reciprocity {
     result_.figures = {{"pairs with a value", judged_}, {"explained by rounding", explained_}};
     if (failed_ > 0) {
       result_.verdict = Verdict::fail;
-      result_.diagnosis = asymmetry_.diagnosis();
       result_.reason += " (" + number(failed_) + " of " + number(judged_) + " pairs fail)";
     } else if (result_.samples == 0) {
       result_.reason = "no direction was looked at: neither front nor back is asked for";
@@ -75,7 +75,7 @@ class Reciprocity {
     } else {
       result_.verdict = Verdict::pass;
     }
-    return result_;
+    return {std::move(result_), std::move(seen_)};
   }
 
  private:
@@ -141,14 +141,18 @@ class Reciprocity {
   }
 
   void add_evidence(const BothWays& p) {
-    asymmetry_.add({p.wo, p.wi, p.there[0] / p.back[0],
-                    eta_squared(p.wi, options_.eta) / eta_squared(p.wo, options_.eta)});
+    constexpr std::size_t kEnough = 2'000;
+    const double ratio = p.there[0] / p.back[0];
+    if (!(ratio > 0) || !std::isfinite(ratio) || seen_.size() >= kEnough) return;
+    const double error = stated_tolerance(bsdf_.epsilon) +
+                         kRoundingsPerUlp * spread(p, 0) / std::min(p.there[0], p.back[0]);
+    seen_.push_back({p.wo, p.wi, ratio, std::isfinite(error) ? error : 1.0});
   }
 
   const ErasedBsdf& bsdf_;
   const BsdfOptions& options_;
   CheckResult result_;
-  Asymmetry asymmetry_;
+  std::vector<ReciprocityAt> seen_;
   double peak_ = 0;
   double judged_ = 0, explained_ = 0, failed_ = 0;  // pairs
   double worst_ = 0;
@@ -158,6 +162,15 @@ class Reciprocity {
 
 CheckResult check_reciprocity(const std::string& name, const ErasedBsdf& bsdf,
                               const BsdfOptions& options) {
+  ReciprocityOutcome outcome = judge_reciprocity(name, bsdf, options);
+  if (outcome.result.verdict == Verdict::fail) {
+    outcome.result.diagnosis = diagnose({{}, std::move(outcome.pairs), {}}).headline;
+  }
+  return outcome.result;
+}
+
+ReciprocityOutcome judge_reciprocity(const std::string& name, const ErasedBsdf& bsdf,
+                                     const BsdfOptions& options) {
   return Reciprocity(name, bsdf, options).run();
 }
 

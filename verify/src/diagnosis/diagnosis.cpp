@@ -2,301 +2,344 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <functional>
-#include <limits>
-#include <numbers>
-#include <optional>
 
+#include "diagnosis/direct.h"
+#include "diagnosis/geometry.h"
+#include "diagnosis/hypothesis.h"
+#include "diagnosis/values.h"
 #include "text.h"
 
 namespace plumbline::verify {
 
 namespace {
 
-// Below this nothing is named: better no guess than a wrong one.
-constexpr double kGoodFit = 0.9;
-// A factor on top of a suspect must earn itself.
-constexpr double kFreeFactorPenalty = 0.02;
-constexpr double kUnnamedPenalty = 0.002;
-// Of fits as good as each other the first stands.
-constexpr double kTie = 1e-4;
-// From this share on, samples where the pdf is 0 say more than the ratio elsewhere.
-constexpr double kManyStrays = 0.2;
-constexpr std::size_t kEnoughPoints = 8;
+/// Another explanation is close where it has as many free numbers.
+constexpr double kClose = 30;
 
-constexpr double kPi = std::numbers::pi;
+const Prediction kAsStated = [](const Place& p, std::span<const double>) { return p.base; };
 
-/// One way in which a ratio can come about.
-struct Hypothesis {
-  std::string formula;  // of the ratio
-  std::string remark;
-  std::function<double(const Vec3&)> ratio;
-  /// If any: which of these comes closest is the ratio at a point.
-  std::vector<std::function<double(const Vec3&)>> either = {};
-};
+std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Blame& blame,
+                                       const Observations& observations, bool of_value) {
+  std::vector<Hypothesis> all;
+  const auto add = [&all](std::vector<Hypothesis> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(all));
+  };
+  add(constant_hypotheses(evidence, blame, observations));
+  add(factor_hypotheses(evidence, blame, observations));
+  add(argument_hypotheses(evidence, blame, of_value));
+  add(parametric_hypotheses(evidence, blame, observations));
+  if (!of_value) add(mixture_hypotheses(evidence, blame, observations));
+  return all;
+}
 
-struct Constant {
-  double value;
-  const char* formula;
-};
-constexpr Constant kConstants[] = {{2, "2"},          {0.5, "1/2"},
-                                   {3, "3"},          {1.0 / 3, "1/3"},
-                                   {4, "4"},          {0.25, "1/4"},
-                                   {8, "8"},          {0.125, "1/8"},
-                                   {kPi, "π"},        {1 / kPi, "1/π"},
-                                   {2 * kPi, "2π"},   {1 / (2 * kPi), "1/(2π)"},
-                                   {4 * kPi, "4π"},   {1 / (4 * kPi), "1/(4π)"},
-                                   {kPi / 2, "π/2"},  {2 / kPi, "2/π"},
-                                   {kPi * kPi, "π²"}, {1 / (kPi * kPi), "1/π²"}};
-
-/// Weighted fit of log ratio by log hypothesis, with or without a free factor.
-struct Fit {
-  double r_squared = 0;
-  double log_factor = 0;
-};
-
-class Fitter {
- public:
-  Fitter(const RatioEvidence& evidence, std::vector<RatioPoint> points)
-      : noise2_(evidence.noise * evidence.noise), points_(std::move(points)) {
-    for (const RatioPoint& p : points_) {
-      total_ += p.weight * std::pow(std::log(p.ratio), 2);
-      weights_ += p.weight;
-    }
+/// Kinds of f and weights for factors that were looked for in a density.
+CauseKind of_value(CauseKind kind) {
+  switch (kind) {
+    case CauseKind::constant:
+      return CauseKind::value_constant;
+    case CauseKind::cosine:
+      return CauseKind::value_cosine;
+    default:
+      return kind;
   }
+}
 
-  std::size_t size() const { return points_.size(); }
+class Diagnosis {
+ public:
+  explicit Diagnosis(const ReportEvidence& evidence) : evidence_(evidence) {}
 
-  /// Noise expected in the sum of squares, per free number fitted.
-  double explainable() const { return total_ - noise2_ * static_cast<double>(points_.size()); }
-
-  std::optional<Fit> fit(const Hypothesis& hypothesis, bool free_factor) const {
-    std::vector<double> rest;
-    rest.reserve(points_.size());
-    double mean = 0;
-    for (const RatioPoint& p : points_) {
-      const double model = closest(hypothesis, p);
-      if (!(model > 0) || !std::isfinite(model)) return std::nullopt;
-      rest.push_back(std::log(p.ratio) - std::log(model));
-      mean += p.weight * rest.back() / weights_;
+  Cause run() {
+    if (!anything_failed()) return {};
+    if (const auto f = find_stale_state(evidence_)) return named(*f);
+    if (const auto f = find_atoms_with_density(evidence_)) return named(*f);
+    if (const auto f = find_samples_on_a_line(evidence_)) return named(*f);
+    Cause cause = of_the_rest();
+    if (const auto f = find_not_finite(evidence_)) {
+      // A number that is none may follow from what was named, or be all there is.
+      if (cause.kind == CauseKind::none) return named(*f);
+      cause.second = f->words;
+      cause.second_kind = f->kind;
     }
-    Fit fit;
-    fit.log_factor = free_factor ? mean : 0;
-    double left = 0;
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-      left += points_[i].weight * std::pow(rest[i] - fit.log_factor, 2);
-    }
-    left = std::max(0.0, left - noise2_ * static_cast<double>(points_.size()));
-    fit.r_squared = explainable() > 0 ? 1 - left / explainable() : 0;
-    return fit;
+    return cause;
   }
 
  private:
-  static double closest(const Hypothesis& hypothesis, const RatioPoint& p) {
-    if (hypothesis.either.empty()) return hypothesis.ratio(p.x);
-    double best = 0, distance = std::numeric_limits<double>::infinity();
-    for (const auto& ratio : hypothesis.either) {
-      const double value = ratio(p.x);
-      const double d = std::abs(std::log(value / p.ratio));
-      if (d < distance) {
-        best = value;
-        distance = d;
+  bool anything_failed() const {
+    return std::any_of(evidence_.views.begin(), evidence_.views.end(),
+                       [](const ViewEvidence& v) { return v.failed; }) ||
+           reciprocity_fails(evidence_) || energy_fails(evidence_);
+  }
+
+  static Cause named(const Finding& f) { return {f.kind, f.words, {}, CauseKind::none}; }
+
+  Cause of_the_rest() {
+    if (evidence_.views.empty()) return of_values();
+    if (auto cause = of_lobes()) return *cause;
+    const Observations density = Observations::of_density(evidence_);
+    if (!density.empty() && !density.judge(kAsStated).admissible) return of_density(density);
+    const Observations record = Observations::of_series(evidence_, RatioKind::record_over_pdf);
+    if (!record.empty() && !record.judge(kAsStated).admissible) return of_record(record);
+    const Observations weight = Observations::of_series(evidence_, RatioKind::weight_over_value);
+    if (!weight.empty() && !weight.judge(kAsStated).admissible) return of_weight(weight);
+    return of_values();
+  }
+
+  Cause from(const std::vector<Explanation>& found, const std::string& remark = {}) const {
+    if (found.empty()) return {};
+    const auto words = [](const Explanation& e) {
+      std::span<const double> numbers;
+      if (!e.numbers.empty()) numbers = e.numbers.front();
+      return e.hypothesis->words(numbers);
+    };
+    Cause cause{found.front().hypothesis->kind, words(found.front()) + remark, {}, CauseKind::none};
+    for (const Explanation& e : found) {
+      if (e.hypothesis->kind == cause.kind || e.cost > found.front().cost + kClose) continue;
+      cause.second = words(e);
+      cause.second_kind = e.hypothesis->kind;
+      break;
+    }
+    return cause;
+  }
+
+  std::optional<Cause> of_lobes() {
+    const std::size_t lobes = evidence_.views.front().pair->lobes.size();
+    for (std::size_t i = 0; i < lobes; ++i) {
+      const Observations lobe =
+          Observations::of_series(evidence_, RatioKind::lobe_density_over_pdf, static_cast<int>(i));
+      if (lobe.empty() || lobe.judge(kAsStated).admissible) continue;
+      const Blame blame{"the pdf of " + evidence_.views.front().pair->lobes[i].name,
+                        "the density of its samples"};
+      std::vector<Hypothesis> all;
+      for (auto&& list :
+           {constant_hypotheses(evidence_, blame, lobe), factor_hypotheses(evidence_, blame, lobe),
+            parametric_hypotheses(evidence_, blame, lobe)}) {
+        all.insert(all.end(), list.begin(), list.end());
+      }
+      return from(explain(lobe, all));
+    }
+    return std::nullopt;
+  }
+
+  /// In which function it is, by what the record says.
+  std::string which_function(const Explanation& e) const {
+    const Observations record = Observations::of_series(evidence_, RatioKind::record_over_pdf);
+    if (record.empty()) return {};
+    const auto numbers = [&e](std::size_t v) { return std::span<const double>(e.numbers[v]); };
+    if (record.judge(kAsStated).admissible) return " (the record states the same)";
+    if (record.judge(e.hypothesis->prediction, numbers).admissible) {
+      return " (the pdf in the record is right)";
+    }
+    return {};
+  }
+
+  Cause of_density(const Observations& density) {
+    const Blame blame{"pdf()", "the density of the samples"};
+    if (auto cause = of_unrejected(density)) return *cause;
+    if (auto cause = of_atoms(density)) return *cause;
+    const auto all = all_hypotheses(evidence_, blame, density, false);
+    const auto found = explain(density, all);
+    if (!found.empty()) return from(found, which_function(found.front()));
+    if (auto cause = of_shape(density)) return *cause;
+    return {};
+  }
+
+  /// Samples where the pdf is 0, and nothing wrong (or a constant per view) where it is not.
+  std::optional<Cause> of_unrejected(const Observations& density) const {
+    double strays = 0, beyond = 0, share = 0;
+    for (const ViewEvidence& v : evidence_.views) {
+      share = std::max(share, v.stray_share);
+      for (const Vec3& x : v.strays) {
+        ++strays;
+        const bool other = has_wo(v) ? transmits(*v.wo, x) : x[2] < 0;
+        beyond += v.pair->domain.directions() && other ? 1 : 0;
       }
     }
-    return best;
+    if (strays == 0) return std::nullopt;
+    const Observations inside = density.without_strays();
+    if (!inside.judge(kAsStated).admissible) return std::nullopt;
+    const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
+    if (beyond > 0.98 * strays) {
+      return Cause{CauseKind::not_rejected,
+                   "samples below the horizon are not rejected: up to " + some +
+                       " lie where pdf() is 0, and the rest are as dense as it says",
+                   {},
+                   CauseKind::none};
+    }
+    return Cause{CauseKind::support,
+                 "the support of pdf() is too small: up to " + some + " lie outside it",
+                 {},
+                 CauseKind::none};
   }
 
-  double noise2_;
-  std::vector<RatioPoint> points_;
-  double total_ = 0, weights_ = 0;
+  /// The continuous part and the atoms, each with or without the probability that is its own.
+  std::optional<Cause> of_atoms(const Observations& density) const {
+    double atoms = 0;
+    for (const ViewEvidence& v : evidence_.views) {
+      if (v.mass) atoms = std::max(atoms, v.mass->atoms);
+    }
+    if (!(atoms > 1e-9)) return std::nullopt;
+    const auto left = [](const Place& p) { return p.view->mass ? 1 - p.view->mass->atoms : 1.0; };
+    if (density.judge([left](const Place& p, auto) { return p.base * left(p); }).admissible) {
+      return Cause{CauseKind::fresnel,
+                   "1 − F, the probability that the atoms leave to the rest, is missing from pdf()",
+                   {},
+                   CauseKind::none};
+    }
+    if (density.judge([left](const Place& p, auto) { return p.base / left(p); }).admissible) {
+      return Cause{CauseKind::fresnel,
+                   "1 − F, the probability that the atoms leave to the rest, is there twice in "
+                   "pdf()",
+                   {},
+                   CauseKind::none};
+    }
+    if (density.without_mass().judge(kAsStated).admissible) {
+      return Cause{CauseKind::atom_as_density,
+                   "the mass that atoms state is not the share of samples that they get",
+                   {},
+                   CauseKind::none};
+    }
+    return std::nullopt;
+  }
+
+  /// What no function of the point explains: symmetries, and where samples are missing.
+  std::optional<Cause> of_shape(const Observations& density) const {
+    double empty = 0, expected = 0, excess = 0;
+    for (const ViewObservations& v : density.views()) {
+      for (const CountedBin& b : v.bins) {
+        expected += b.expected;
+        if (b.observed < 0.02 * b.expected && b.expected > 20) empty += b.expected;
+        excess = std::max(excess, (b.observed - b.expected) / std::sqrt(b.expected + 1));
+      }
+    }
+    constexpr double kCertain = 7;
+    if (samples_break_a_symmetry(evidence_) && excess < kCertain) {
+      return Cause{CauseKind::tangent_frame,
+                   "samples lie unevenly to the left and right of the plane of incidence, where "
+                   "pdf() is the same, and are nowhere denser than it says: they are drawn in "
+                   "another tangent frame than the one that pdf() is for",
+                   {},
+                   CauseKind::none};
+    }
+    if (empty > 0.02 * expected && excess > kCertain) {
+      const bool chosen = map_jumps(evidence_.views.front());
+      const std::string some = number(std::round(1e3 * empty / expected) / 10) + " % of pdf()";
+      if (chosen) {
+        return Cause{CauseKind::numbers_reused,
+                     "no sample falls where " + some +
+                         " is, and more than expected elsewhere: a number that has chosen a part "
+                         "is used again without being stretched to [0, 1)",
+                     {},
+                     CauseKind::none};
+      }
+      return Cause{CauseKind::support,
+                   "no sample falls where " + some + " is: samples cover a part of it only",
+                   {},
+                   CauseKind::none};
+    }
+    return std::nullopt;
+  }
+
+  Cause of_record(const Observations& record) {
+    const Blame blame{"the pdf in the record", "pdf()"};
+    // The ratio is the record over pdf(): what is missing from one is too many in the other.
+    const Dependence on = dependence_of(evidence_, false);
+    if (auto cause = of_chosen_lobe(record)) return *cause;
+    if (on == Dependence::on_a_choice) {
+      return {CauseKind::chosen_lobe_only,
+              "the record's pdf is not a function of the directions: it states that of the chosen "
+              "lobe in place of the mixture's",
+              {},
+              CauseKind::none};
+    }
+    const auto all = all_hypotheses(evidence_, {"pdf()", "the pdf in the record"}, record, false);
+    Cause cause = from(explain(record, all));
+    const std::string right = "the pdf in the record is wrong: samples are as dense as pdf() says";
+    if (cause.kind == CauseKind::none) {
+      return {CauseKind::record_pdf, right, {}, CauseKind::none};
+    }
+    return {CauseKind::record_pdf, right + "; " + cause.headline, cause.headline, cause.kind};
+  }
+
+  /// Lobes that are exposed: every ratio is one of theirs.
+  std::optional<Cause> of_chosen_lobe(const Observations& series) const {
+    if (evidence_.views.front().pair->lobes.size() < 2) return std::nullopt;
+    for (const bool weighed : {false, true}) {
+      std::size_t tested = 0, matching = 0;
+      for (const ViewObservations& v : series.views()) {
+        for (const ExactPoint& p : v.exact) {
+          ++tested;
+          for (const PairLobe& lobe : p.place.view->pair->lobes) {
+            const double expected = (weighed ? lobe.probability : 1.0) * lobe.pdf(p.place.x) /
+                                    pdf_at(*v.view, p.place.x);
+            if (std::abs(std::log(p.ratio / expected)) <= 4 * p.error + 1e-9) {
+              ++matching;
+              break;
+            }
+          }
+        }
+      }
+      if (tested > 8 && matching == tested) {
+        return Cause{CauseKind::chosen_lobe_only,
+                     weighed ? "one lobe's part stands for that of the whole mixture"
+                             : "the pdf of the chosen lobe stands in the place of the mixture's",
+                     {},
+                     CauseKind::none};
+      }
+    }
+    return std::nullopt;
+  }
+
+  Cause of_weight(const Observations& weight) {
+    const Blame blame{"f·|cosθ|", "weight · pdf()"};
+    if (auto cause = of_chosen_lobe(weight)) return *cause;
+    if (dependence_of(evidence_, true) == Dependence::on_a_choice) {
+      return {CauseKind::chosen_lobe_only,
+              "the weight is not a function of the directions: it holds f or the pdf of the chosen "
+              "lobe in place of the mixture's",
+              {},
+              CauseKind::none};
+    }
+    const auto all = all_hypotheses(evidence_, blame, weight, true);
+    std::vector<Explanation> found = explain(weight, all);
+    // What f is blamed for has to make it as asymmetric as it is; if f is symmetric, the weight is.
+    const bool asymmetric = reciprocity_fails(evidence_);
+    if (asymmetric) {
+      std::erase_if(found, [this](const Explanation& e) {
+        return e.hypothesis->kind != CauseKind::directions_swapped &&
+               !explains_reciprocity(evidence_, e.hypothesis->prediction, e.numbers.front());
+      });
+    }
+    Cause cause = from(found);
+    cause.kind = of_value(cause.kind);
+    cause.second_kind = of_value(cause.second_kind);
+    if (cause.kind != CauseKind::none) return cause;
+    if (asymmetric || energy_fails(evidence_)) return of_values();
+    return {};
+  }
+
+  Cause of_values() const {
+    std::vector<Finding> found;
+    if (reciprocity_fails(evidence_)) {
+      found = explain_asymmetry(evidence_);
+    } else if (energy_fails(evidence_)) {
+      found = explain_energy(evidence_);
+    }
+    if (found.empty()) return {};
+    Cause cause = named(found.front());
+    for (const Finding& f : found) {
+      if (f.kind == cause.kind) continue;
+      cause.second = f.words;
+      cause.second_kind = f.kind;
+      break;
+    }
+    return cause;
+  }
+
+  const ReportEvidence& evidence_;
 };
-
-std::string name_constant(double factor) {
-  for (const Constant& c : kConstants) {
-    if (std::abs(factor / c.value - 1) < 0.005) return c.formula;
-  }
-  return number(std::round(factor * 1e5) / 1e5);
-}
-
-void add_factor(std::vector<Hypothesis>& list, const RatioEvidence& e, const Suspect& suspect) {
-  const auto value = suspect.value;
-  const std::string& name = suspect.name;
-  const bool compound = name.find(' ') != std::string::npos && name.front() != '(';
-  const std::string group = compound ? "(" + name + ")" : name;
-  list.push_back({name, "factor " + name + " missing from " + e.denominator + "?", value});
-  const std::string inverse_remark = suspect.remark_if_inverse.empty()
-                                         ? "factor " + name + " too many in " + e.denominator + "?"
-                                         : suspect.remark_if_inverse;
-  list.push_back({"1/" + group, inverse_remark, [value](const Vec3& x) { return 1 / value(x); }});
-  list.push_back({group + "²", "factor " + name + " missing twice from " + e.denominator + "?",
-                  [value](const Vec3& x) { return value(x) * value(x); }});
-  list.push_back({"1/" + group + "²",
-                  name + " in the place of 1/" + group + " in " + e.denominator + "?",
-                  [value](const Vec3& x) { return 1 / (value(x) * value(x)); }});
-}
-
-void add_mirrored(std::vector<Hypothesis>& list, const SamplingPair& pair) {
-  const auto add = [&](const char* formula, const char* remark, Vec3 signs) {
-    list.push_back(
-        {formula, remark, [&pair, signs](const Vec3& x) {
-           return pair.pdf({signs[0] * x[0], signs[1] * x[1], signs[2] * x[2]}) / pair.pdf(x);
-         }});
-  };
-  add("pdf(−x, −y, z)/pdf(x, y, z)", "the horizontal part of a direction has its sign changed?",
-      {-1, -1, 1});
-  add("pdf(x, y, −z)/pdf(x, y, z)", "wrong hemisphere?", {1, 1, -1});
-  add("pdf(−x, −y, −z)/pdf(x, y, z)", "direction negated?", {-1, -1, -1});
-  list.push_back({"pdf(y, x, z)/pdf(x, y, z)", "x and y exchanged?", [&pair](const Vec3& x) {
-                    return pair.pdf({x[1], x[0], x[2]}) / pair.pdf(x);
-                  }});
-}
-
-/// The size of the domain, as something to be confused with its inverse. On the sphere it is a
-/// constant that has a name.
-void add_extent(std::vector<Hypothesis>& list, const SamplingPair& pair, const RatioEvidence& e) {
-  constexpr int kSteps = 64;
-  if (pair.domain.dimension() == 0 || pair.domain.directions()) return;
-  double sum = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    for (int j = 0; j < kSteps; ++j) {
-      sum += pair.domain.chart().element({(i + 0.5) / kSteps, (j + 0.5) / kSteps});
-    }
-  }
-  const double extent = sum / (kSteps * kSteps);
-  if (std::abs(extent - 1) < 0.01) return;
-  const std::string name = pair.domain.dimension() == 1 ? "length" : "area";
-  Suspect suspect{name, [extent](const Vec3&) { return extent; }};
-  suspect.remark_if_inverse = "1/" + name + " missing from " + e.denominator + "?";
-  add_factor(list, e, suspect);
-}
-
-double sum_of_lobes(const SamplingPair& pair, const Vec3& x, bool with_probability) {
-  double sum = 0;
-  for (const PairLobe& lobe : pair.lobes) {
-    sum += (with_probability ? lobe.probability : 1.0) * lobe.pdf(x);
-  }
-  return sum;
-}
-
-void add_lobes(std::vector<Hypothesis>& list, const SamplingPair& pair) {
-  list.push_back(
-      {"(Σ P·lobe pdf)/(Σ lobe pdf)", "lobe probability missing from pdf?", [&pair](const Vec3& x) {
-         return sum_of_lobes(pair, x, true) / sum_of_lobes(pair, x, false);
-       }});
-  list.push_back({"(Σ P·lobe pdf)/pdf", "lobe probabilities wrong in pdf?",
-                  [&pair](const Vec3& x) { return sum_of_lobes(pair, x, true) / pair.pdf(x); }});
-  Hypothesis alone{"lobe pdf/pdf", "pdf of the chosen lobe in the place of the mixture's?", {}, {}};
-  Hypothesis share{"P·lobe pdf/pdf", "one lobe's part over the pdf of the whole mixture?", {}, {}};
-  for (const PairLobe& lobe : pair.lobes) {
-    alone.either.push_back([&](const Vec3& x) { return lobe.pdf(x) / pair.pdf(x); });
-    share.either.push_back(
-        [&](const Vec3& x) { return lobe.probability * lobe.pdf(x) / pair.pdf(x); });
-  }
-  list.push_back(std::move(alone));
-  list.push_back(std::move(share));
-}
-
-std::vector<Hypothesis> hypotheses(const SamplingPair& pair, const RatioEvidence& e) {
-  std::vector<Hypothesis> list;
-  for (const Suspect& s : pair.suspects) {
-    if (!s.only_of.empty() && s.only_of != e.denominator) continue;
-    if (s.as_is) {
-      list.push_back({s.name, s.remark_if_inverse, s.value});
-    } else {
-      add_factor(list, e, s);
-    }
-  }
-  if (pair.domain.directions()) {
-    add_factor(list, e, {"cosθ", [](const Vec3& w) { return std::abs(w[2]); }});
-    add_factor(list, e, {"sinθ", [](const Vec3& w) { return std::hypot(w[0], w[1]); }});
-    add_mirrored(list, pair);
-  }
-  add_extent(list, pair, e);
-  if (!pair.lobes.empty()) add_lobes(list, pair);
-  return list;
-}
-
-std::string describe_fit(const std::string& formula, double r_squared, const std::string& remark) {
-  char fit[16];
-  std::snprintf(fit, sizeof fit, "%.3f", r_squared);
-  return formula + " (R² " + fit + "): " + remark;
-}
-
-/// A constant factor; one without a name must fit better than what has one.
-void consider_constant(const Fitter& fitter, const RatioEvidence& e, Diagnosis& best) {
-  const Hypothesis one{"1", {}, [](const Vec3&) { return 1.0; }};
-  const auto fit = fitter.fit(one, true);
-  if (!fit) return;
-  const std::string factor = name_constant(std::exp(fit->log_factor));
-  const double penalty = factor.find('.') == std::string::npos ? 0 : kUnnamedPenalty;
-  if (!(fit->r_squared - penalty > best.r_squared)) return;
-  best.r_squared = fit->r_squared - penalty;
-  best.constant = std::exp(fit->log_factor);
-  best.text = describe_fit(e.quotient + " = " + factor, fit->r_squared,
-                           "constant factor " + factor + " missing from " + e.denominator + "?");
-}
-
-void consider(const Fitter& fitter, const RatioEvidence& e, const Hypothesis& h, Diagnosis& best) {
-  const auto plain = fitter.fit(h, false);
-  if (plain && plain->r_squared > best.r_squared + kTie) {
-    best.r_squared = plain->r_squared;
-    best.constant = kNotApplicable;
-    best.text = describe_fit(e.quotient + " = " + h.formula, plain->r_squared, h.remark);
-  }
-  if (!h.either.empty()) return;
-  const auto scaled = fitter.fit(h, true);
-  if (scaled && scaled->r_squared - kFreeFactorPenalty > best.r_squared + kTie) {
-    best.r_squared = scaled->r_squared - kFreeFactorPenalty;
-    best.constant = kNotApplicable;
-    best.text = describe_fit(
-        e.quotient + " = " + name_constant(std::exp(scaled->log_factor)) + " · " + h.formula,
-        scaled->r_squared, h.remark + " And a constant factor?");
-  }
-}
-
-/// Samples where the pdf is 0: on the other side, or just outside a support that is too small.
-Diagnosis diagnose_strays(const SamplingPair& pair, const RatioEvidence& e) {
-  if (e.strays.empty()) return {};
-  const double count = static_cast<double>(e.strays.size());
-  const auto share = [&](Vec3 signs) {
-    double hits = 0;
-    for (const Vec3& x : e.strays) {
-      hits += pair.pdf({signs[0] * x[0], signs[1] * x[1], signs[2] * x[2]}) > 0 ? 1 : 0;
-    }
-    return hits / count;
-  };
-  const std::string some = number(std::round(1e4 * e.stray_share) / 100) +
-                           " % of the samples lie " + "where the pdf is 0";
-  if (pair.domain.directions() && share({1, 1, -1}) > kGoodFit) {
-    return {some + ", mirrored at the horizon it is not: wrong hemisphere?", share({1, 1, -1})};
-  }
-  if (pair.domain.directions() && share({-1, -1, 1}) > kGoodFit) {
-    return {some + ", with x and y negated it is not: sign of the horizontal part?",
-            share({-1, -1, 1})};
-  }
-  return {some + ": support of the pdf too small?", kGoodFit};
-}
 
 }  // namespace
 
-Diagnosis diagnose(const SamplingPair& pair, const RatioEvidence& evidence) {
-  std::vector<RatioPoint> usable;
-  for (const RatioPoint& p : evidence.points) {
-    if (p.ratio > 0 && std::isfinite(p.ratio) && p.weight > 0) usable.push_back(p);
-  }
-  Diagnosis best;
-  best.r_squared = kGoodFit;
-  const Fitter fitter(evidence, std::move(usable));
-  if (fitter.size() >= kEnoughPoints && fitter.explainable() > 0) {
-    for (const Hypothesis& h : hypotheses(pair, evidence)) consider(fitter, evidence, h, best);
-    consider_constant(fitter, evidence, best);
-  }
-  const Diagnosis strays = diagnose_strays(pair, evidence);
-  if (!strays.text.empty() && (best.text.empty() || evidence.stray_share > kManyStrays)) {
-    return strays;
-  }
-  return best.text.empty() ? Diagnosis{} : best;
-}
+Cause diagnose(const ReportEvidence& evidence) { return Diagnosis(evidence).run(); }
 
 }  // namespace plumbline::verify

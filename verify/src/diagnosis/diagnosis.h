@@ -1,41 +1,29 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include <plumbline/verify/pair.h>
+#include <plumbline/verify/detail/cause.h>
 
-/// What is likely wrong, from the ratio of what was observed to what was expected.
+#include "diagnosis/evidence.h"
+
+/// What is likely wrong, from everything that a report knows.
 namespace plumbline::verify {
 
-/// observed/expected at a point, with the weight of its logarithm (inverse variance, up to a
-/// factor).
-struct RatioPoint {
-  Vec3 x{};
-  double ratio = 1;
-  double weight = 1;
+/// A cause in a sentence, and the next best where another explains as much.
+struct Cause {
+  CauseKind kind = CauseKind::none;
+  std::string headline;  ///< empty: nothing explains all that was seen
+  std::string second;    ///< empty: nothing else does
+  CauseKind second_kind = CauseKind::none;
 };
 
-/// What a check found: in words what is over what, the ratio, and samples that no pdf expected.
-struct RatioEvidence {
-  std::string quotient;     ///< "observed/expected"
-  std::string denominator;  ///< that a remark blames: "pdf"
-  std::vector<RatioPoint> points;
-  double noise = 0;          ///< of a logarithm at weight 1, standard deviation; 0: none
-  std::vector<Vec3> strays;  ///< samples where the pdf is 0
-  double stray_share = 0;    ///< of all samples
-};
-
-/// A guess, and how well it fits.
-struct Diagnosis {
-  std::string text;
-  double r_squared = 0;
-  double constant = kNotApplicable;  ///< the ratio, if it is the same everywhere
-};
-
-/// The best of the usual suspects: constant factors, cosθ, sinθ, what the pair suspects itself (4
-/// wo·h, G1, η², …), swapped or mirrored arguments, lobe probabilities, a support too small. No
-/// text where nothing fits.
-Diagnosis diagnose(const SamplingPair& pair, const RatioEvidence& evidence);
+/// Names one cause for all views, kinds of checks and examples of a report.
+///
+/// A hypothesis is admissible only if every residual that it leaves, in every view and series, lies
+/// within that residual's own rounding or sampling error; free numbers are fitted on half of the
+/// points and frozen for the other half. Of the admissible ones the one with the fewest free
+/// numbers is named; none admissible, none named. Observations that need no fit (state, samples on
+/// a line, atoms with a density) come first.
+Cause diagnose(const ReportEvidence& evidence);
 
 }  // namespace plumbline::verify

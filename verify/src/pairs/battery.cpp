@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "pairs/binned_pair.h"
@@ -10,72 +9,105 @@
 #include "pairs/integral_check.h"
 #include "pairs/jacobian.h"
 #include "pairs/pointwise.h"
+#include "pairs/rejected_share.h"
 
 namespace plumbline::verify {
 
 namespace {
 
-/// What the bins show, at the finest level that still counts at least 100 in most of them.
-RatioEvidence bin_evidence(const BinnedPair& binned) {
+/// The bins at the finest level that still counts about 100 in each.
+std::vector<BinSeen> bins_seen(const BinnedPair& binned) {
   constexpr double kCountsPerBin = 100;
-  RatioEvidence e;
-  e.quotient = "observed/expected";
-  e.denominator = "pdf";
   const double n = static_cast<double>(binned.counts().drawn);
-  e.strays = binned.counts().strays;
-  e.stray_share = static_cast<double>(binned.counts().stray) / n;
   const int depth = std::clamp(static_cast<int>(std::log2(n / kCountsPerBin)), 0, binned.depth());
   const BinTable table = table_of(binned, depth);
-  for (std::size_t i = 0; i < table.expected.size(); ++i) {
-    if (table.observed[i] < kCountsPerBin / 4 || !(table.expected[i] > 0)) continue;
-    // A logarithm of a count has variance 1/count.
-    e.points.push_back(
-        {binned.center(depth, i), table.observed[i] / table.expected[i], table.observed[i]});
+  const int finer = binned.depth() - depth;
+  std::vector<BinSeen> bins(table.expected.size());
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    bins[i].observed = table.observed[i];
+    bins[i].expected = table.expected[i];
+    double total = 0;
+    for (std::size_t fine = i << finer; fine < (i + 1) << finer; ++fine) {
+      if (fine >= binned.expected().value.size()) continue;
+      for (const auto& [x, share] : binned.nodes_of(fine)) {
+        bins[i].nodes.push_back(x);
+        bins[i].shares.push_back(share);
+        total += share;
+      }
+    }
+    bins[i].expected_error = std::sqrt(table.variance[i]);
+    for (double& share : bins[i].shares) share = total > 0 ? share / total : 0;
   }
-  e.noise = 1;
-  return e;
+  return bins;
 }
 
-/// All failing results of a pair get the best of the diagnoses: they share one cause more often
-/// than not.
-class Cause {
- public:
-  void consider(const SamplingPair& pair, const RatioEvidence& evidence) {
-    Diagnosis found = diagnose(pair, evidence);
-    // Exact ratios come first and are not outdone by a fit to noise.
-    if (!found.text.empty() && found.r_squared > best_.r_squared + 0.01) best_ = std::move(found);
-  }
-  const Diagnosis& best() const { return best_; }
+/// Samples are as dense as the pdf says, and wherever the map was followed it is less dense: it
+/// reaches its points on several ways, of which the check knows one.
+void skip_single_branches(CheckResult& jacobian) {
+  if (jacobian.verdict != Verdict::fail) return;
+  jacobian.verdict = jacobian.expected = Verdict::inconclusive;
+  jacobian.reason =
+      "skipped: the samples follow the pdf, and single branches of the map are less dense; with "
+      "lobes exposed (lobe_count, lobe_probability, sample_lobe, pdf_lobe) they are checked one by "
+      "one";
+}
 
- private:
-  Diagnosis best_;
-};
+MassSeen mass_seen(const BinnedPair& binned, const RejectedShare& rejected,
+                   const ContractOptions& options) {
+  const MassBalance mass = balance_mass(binned, rejected);
+  const double level = options.budget.fail_level() / 2;
+  MassSeen seen;
+  seen.integral = mass.integral.total;
+  seen.integral_error = mass.integral.error(level) + mass_tolerance(options, binned);
+  seen.atoms = mass.atoms;
+  seen.rejected = mass.rejected.value;
+  seen.rejected_error = mass.rejected.error(level);
+  return seen;
+}
 
 }  // namespace
 
 PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options) {
   std::vector<CheckResult> results;
-  Cause cause;
+  ViewEvidence view;
+  view.pair = &pair;
   for (PointwiseOutcome& outcome : judge_pointwise(pair, options)) {
-    if (outcome.result.verdict == Verdict::fail) cause.consider(pair, outcome.evidence);
+    if (!outcome.ratios.points.empty()) view.ratios.push_back(std::move(outcome.ratios));
     results.push_back(std::move(outcome.result));
   }
   JacobianOutcome jacobian = judge_jacobian(pair, options);
-  if (jacobian.result.verdict == Verdict::fail) cause.consider(pair, jacobian.evidence);
-  results.push_back(std::move(jacobian.result));
+  const std::size_t jacobian_at = results.size();
+  results.push_back(jacobian.result);
 
   BinnedPair binned(pair, options);
   const RejectedShare rejected = measure_rejected(pair, options.seed);
   CheckResult chi_square = run_chi_square(options, binned, rejected);
-  results.push_back(judge_integral(options, binned, rejected));
-  if (chi_square.verdict == Verdict::fail) cause.consider(pair, bin_evidence(binned));
+  CheckResult integral = judge_integral(options, binned, rejected);
+  if (jacobian.below_everywhere && integral.verdict == Verdict::pass &&
+      chi_square.verdict == Verdict::pass) {
+    skip_single_branches(results[jacobian_at]);
+    jacobian.ratios.clear();
+  }
+  for (RatioSeries& s : jacobian.ratios) view.ratios.push_back(std::move(s));
+  results.push_back(std::move(integral));
   results.push_back(std::move(chi_square));
   const BinCounts& counts = binned.counts();
+  view.samples = static_cast<double>(counts.drawn);
+  view.bins = bins_seen(binned);
+  view.mass = mass_seen(binned, rejected, options);
+  view.strays = counts.strays;
+  view.stray_share = static_cast<double>(counts.stray) / std::max(1.0, view.samples);
+  for (const CheckResult& r : results) view.failed = view.failed || r.verdict == Verdict::fail;
+  return {std::move(results), std::move(view), counts.rejected == counts.drawn,
+          !counts.atoms.empty()};
+}
 
+void name_cause(const Cause& cause, std::vector<CheckResult>& results) {
+  std::string text = cause.headline;
+  if (!cause.second.empty()) text += "; or: " + cause.second;
   for (CheckResult& r : results) {
-    if (r.verdict == Verdict::fail) r.diagnosis = cause.best().text;
+    if (r.verdict == Verdict::fail) r.diagnosis = text;
   }
-  return {std::move(results), cause.best(), counts.rejected == counts.drawn, !counts.atoms.empty()};
 }
 
 CheckResult nothing_sampled(const std::string& name, const ContractOptions& options,
@@ -96,6 +128,9 @@ std::vector<CheckResult> check_pair(const SamplingPair& pair, const ContractOpti
         "the sampler rejected every random number, so that nothing was tested: does it take them "
         "as it is given them, and is what it is asked about (direction, side, light) one that it "
         "samples?"));
+  }
+  if (outcome.view.failed) {
+    name_cause(diagnose({{std::move(outcome.view)}, {}, {}}), outcome.results);
   }
   return std::move(outcome.results);
 }

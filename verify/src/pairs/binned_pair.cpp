@@ -215,6 +215,28 @@ std::size_t BinnedPair::locate(const Vec3& x) const {
   return tree_ ? tree_->locate(pair_.domain.chart().to_square(x)) : static_cast<std::size_t>(x[0]);
 }
 
+std::vector<std::pair<Vec3, double>> BinnedPair::nodes_of(std::size_t bin) const {
+  constexpr int kSteps = 2;
+  if (!tree_) return {{{static_cast<double>(bin), 0, 0}, expected_.value[bin]}};
+  const Box& box = tree_->box(bin);
+  const Chart& chart = pair_.domain.chart();
+  const int second = pair_.domain.dimension() == 1 ? 1 : kSteps;
+  std::vector<std::pair<Vec3, double>> nodes;
+  double total = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < second; ++j) {
+      const Point2 p = {box.low[0] + (box.high[0] - box.low[0]) * (i + 0.5) / kSteps,
+                        box.low[1] + (box.high[1] - box.low[1]) * (j + 0.5) / second};
+      const Vec3 x = chart.from_square(p);
+      const double mass = pair_.pdf(x) * chart.element(p);
+      nodes.emplace_back(x, mass);
+      total += mass;
+    }
+  }
+  for (auto& node : nodes) node.second = total > 0 ? node.second / total * expected_.value[bin] : 0;
+  return nodes;
+}
+
 Vec3 BinnedPair::center(int depth, std::size_t bin) const {
   // The finest bin in the middle of the coarser one's range stands for it.
   const int finer = depth_ - depth;

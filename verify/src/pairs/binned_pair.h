@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <plumbline/verify/pair.h>
@@ -56,6 +57,9 @@ class BinnedPair {
   /// point is rounded: what rounding may do to the mass. About epsilon, and far more for narrow
   /// lobes in float.
   double rounding() const { return rounding_; }
+
+  /// Points of a finest bin with about the share of its mass that lies around each.
+  std::vector<std::pair<Vec3, double>> nodes_of(std::size_t bin) const;
 
   /// Middle of a bin of a depth, in the domain.
   Vec3 center(int depth, std::size_t bin) const;

@@ -1,19 +1,18 @@
 #include "pairs/jacobian.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "diagnosis/diagnosis.h"
+#include "pairs/branches.h"
+#include "pairs/differences.h"
 #include "streams.h"
 #include "text.h"
 
 namespace plumbline::verify {
 
 namespace {
-
-using Map = std::function<std::optional<SampleRecord>(const Uniforms&)>;
 
 constexpr double kDoubleTolerance = 1e-4;
 constexpr double kFloatTolerance = 5e-3;
@@ -22,106 +21,15 @@ constexpr double kMostFolds = 0.75;
 // Failing points that a seam may cause by a coincidence of its differences.
 constexpr double kSeamPoints = 2;
 constexpr double kSeamShare = 0.002;
-
-/// A derivative along one uniform number, with its error.
-struct Derivative {
-  Vec3 value{};
-  double error = 0;
-};
-
-double norm(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
-
-Vec3 combine(double a, const Vec3& x, double b, const Vec3& y) {
-  return {a * x[0] + b * y[0], a * x[1] + b * y[1], a * x[2] + b * y[2]};
-}
-
-/// Largest coordinate that a difference subtracts, for its rounding error.
-double largest_coordinate(const Vec3& x) {
-  return std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
-}
-
-/// Central difference; steps are powers of two and u a multiple of 2^-20, so that u ± h is exact in
-/// float too.
-std::optional<Vec3> difference(const Map& map, Uniforms u, std::size_t d, double h) {
-  const double center = u[d];
-  u[d] = center + h;
-  const auto above = map(u);
-  u[d] = center - h;
-  const auto below = map(u);
-  if (!above || !below || above->mass > 0 || below->mass > 0) return std::nullopt;
-  return combine(0.5 / h, above->x, -0.5 / h, below->x);
-}
-
-/// What each coordinate of the map is off by around u: its steps, if the code rounds something on
-/// the way that the result magnifies (a sine from 1 − cos² in float), else `unit`. Second
-/// differences at steps so small that a smooth map is straight over them.
-double rounding_around(const Map& map, const Uniforms& u, std::size_t d, double unit) {
-  const auto here = map(u);
-  for (double h = 0x1p-20; here && h <= 0x1p-17 && h < u[d] && u[d] + h < 1; h *= 2) {
-    Uniforms above = u, below = u;
-    above[d] += h;
-    below[d] -= h;
-    const auto a = map(above), b = map(below);
-    if (!a || !b) break;
-    const Vec3 bend =
-        combine(0.5, combine(1, a->x, -1, here->x), 0.5, combine(1, b->x, -1, here->x));
-    unit = std::max(unit, norm(bend));
-  }
-  return unit;
-}
-
-/// Ridders: differences at halved steps, extrapolated; the best is where neither the extrapolation
-/// nor rounding (`unit`: what each coordinate of the map is off by) leaves a larger error.
-std::optional<Derivative> derivative(const Map& map, const Uniforms& u, std::size_t d,
-                                     double unit) {
-  constexpr int kSteps = 8;
-  if (unit > 0x1p-40) unit = rounding_around(map, u, d, unit);
-  double h = std::exp2(std::floor(std::log2(std::min({0.0625, u[d] / 2, (1 - u[d]) / 2}))));
-  std::array<std::array<Vec3, kSteps>, kSteps> table;
-  Derivative best;
-  best.error = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < kSteps; ++i, h /= 2) {
-    const auto next = difference(map, u, d, h);
-    if (!next) {
-      if (i == 0) return std::nullopt;
-      break;
-    }
-    table[0][i] = *next;
-    double factor = 4;
-    for (std::size_t j = 1; j <= i; ++j, factor *= 4) {
-      table[j][i] =
-          combine(factor / (factor - 1), table[j - 1][i], -1 / (factor - 1), table[j - 1][i - 1]);
-      const double error =
-          std::max({norm(combine(1, table[j][i], -1, table[j - 1][i])),
-                    norm(combine(1, table[j][i], -1, table[j - 1][i - 1])), 4 * unit / h});
-      if (error <= best.error) best = {table[j][i], error};
-    }
-  }
-  return best;
-}
-
-/// |∂x/∂u| with its relative error; nullopt where the map rejects or has atoms nearby.
-struct Determinant {
-  double value = 0;
-  double relative_error = 0;
-};
-
-std::optional<Determinant> determinant(const Map& map, const Uniforms& u, int dimension,
-                                       double unit) {
-  const auto du = derivative(map, u, 0, unit);
-  if (!du) return std::nullopt;
-  if (dimension == 1) {
-    const double length = norm(du->value);
-    return Determinant{length, du->error / length};
-  }
-  const auto dv = derivative(map, u, 1, unit);
-  if (!dv) return std::nullopt;
-  const Vec3& a = du->value;
-  const Vec3& b = dv->value;
-  const double area =
-      norm({a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]});
-  return Determinant{area, (du->error * norm(b) + dv->error * norm(a)) / area};
-}
+// Steps with which a point that fails is looked at again: within a pixel of a map, if not before
+// its edge. Coarse ones may straddle a seam and agree by coincidence.
+constexpr double kShortSteps[] = {0x1p-9, 0x1p-13};
+// Points at which other branches of the map are looked for, and the share of them that have one in
+// a map that counts as many-to-one.
+constexpr std::size_t kBranchPoints = 200;
+constexpr double kManyToOne = 0.02;
+// Share of the points at which the branches found must add up to the pdf.
+constexpr double kBranchesComplete = 0.9;
 
 /// Uniform in the middle, and as often close to one end: maps are steep there.
 double draw_uniform(Random& random) {
@@ -139,8 +47,6 @@ class Jacobian {
       : pair_(pair),
         random_(random_for(options.seed, Stream::jacobian)),
         tolerance_(pair.epsilon > 0x1p-40 ? kFloatTolerance : kDoubleTolerance) {
-    outcome_.evidence.quotient = "observed/expected";
-    outcome_.evidence.denominator = "pdf";
     CheckResult& r = outcome_.result;
     r.check = "jacobian";
     r.subject = pair.name + "/jacobian";
@@ -154,16 +60,20 @@ class Jacobian {
     if (pair_.lobes.empty()) {
       visit(pair_.sample, pair_.pdf, points);
     } else {
-      for (const PairLobe& lobe : pair_.lobes) {
+      for (std::size_t i = 0; i < pair_.lobes.size(); ++i) {
+        const PairLobe& lobe = pair_.lobes[i];
+        lobe_ = static_cast<int>(i);
         if (lobe.probability > 0 && lobe.sample) visit(lobe.sample, lobe.pdf, points);
       }
-      lobes_fail_ = failing_ > 0;
+      lobe_ = -1;
       check_mixture();
     }
-    outcome_.evidence.points =
-        pair_.lobes.empty() || lobes_fail_ ? std::move(of_lobes_) : std::move(of_mixture_);
-    outcome_.evidence.stray_share =
-        static_cast<double>(outcome_.evidence.strays.size()) / std::max(1.0, usable_);
+    const bool one_map = pair_.lobes.empty() && !pair_.preimages;
+    outcome_.below_everywhere = one_map && failing_ > 0 && failing_below_ == failing_;
+    if (one_map && too_many_fail() && outcome_.below_everywhere) look_for_branches();
+    for (RatioSeries* s : {&of_lobes_, &of_whole_}) {
+      if (!s->points.empty()) outcome_.ratios.push_back(std::move(*s));
+    }
     finish();
     return std::move(outcome_);
   }
@@ -182,31 +92,25 @@ class Jacobian {
         u[static_cast<std::size_t>(d)] = draw_uniform(random_);
       const auto sample = map(u);
       if (!sample || sample->mass > 0) continue;
-      const auto density = pair_.preimages ? density_of(sample->x, map) : density_at(u, map);
+      const auto density = pair_.preimages
+                               ? sum_over(pair_.preimages(sample->x), map)
+                               : density_by_differences(map, u, dimension(), pair_.epsilon);
       ++tried_;
       if (!density || !(density->relative_error <= tolerance_ / 4)) {
         ++folds_;
         continue;
       }
-      count(sample->x, pdf(sample->x), *density, of_lobes_);
+      count(map, u, sample->x, pdf(sample->x), *density);
     }
   }
 
-  /// 1/|∂x/∂u| as a density with its error.
-  std::optional<Determinant> density_at(const Uniforms& u, const Map& map) const {
-    const auto sample = map(u);
-    if (!sample) return std::nullopt;
-    auto d = determinant(map, u, pair_.domain.dimension(),
-                         pair_.epsilon * largest_coordinate(sample->x));
-    if (!d || !(d->value > 0)) return std::nullopt;
-    d->value = 1 / d->value;
-    return d;
-  }
+  int dimension() const { return pair_.domain.dimension(); }
 
-  std::optional<Determinant> density_of(const Vec3& x, const Map& map) const {
-    Determinant sum;
-    for (const Uniforms& u : pair_.preimages(x)) {
-      const auto d = density_at(u, map);
+  /// Density at a point that several random numbers lead to.
+  std::optional<DensityAt> sum_over(const std::vector<Uniforms>& preimages, const Map& map) const {
+    DensityAt sum;
+    for (const Uniforms& u : preimages) {
+      const auto d = density_by_differences(map, u, dimension(), pair_.epsilon);
       if (!d) return std::nullopt;
       sum.value += d->value;
       sum.relative_error = std::max(sum.relative_error, d->relative_error);
@@ -214,17 +118,87 @@ class Jacobian {
     return sum;
   }
 
-  void count(const Vec3& x, double pdf, const Determinant& density,
-             std::vector<RatioPoint>& ratios) {
+  bool agrees(double pdf, const DensityAt& density) const {
+    return std::abs(pdf / density.value - 1) <= tolerance_ + 4 * density.relative_error;
+  }
+
+  /// Whether short differences see what long ones have missed.
+  bool agrees_closely(const Map& map, const Uniforms& u, double pdf) const {
+    return std::any_of(std::begin(kShortSteps), std::end(kShortSteps), [&](double step) {
+      const auto d = density_by_differences(map, u, dimension(), pair_.epsilon, step);
+      return d && d->relative_error <= tolerance_ / 4 && agrees(pdf, *d);
+    });
+  }
+
+  void count(const Map& map, const Uniforms& u, const Vec3& x, double pdf, DensityAt density) {
+    if (!agrees(pdf, density) && !pair_.preimages && agrees_closely(map, u, pdf)) {
+      ++seams_;
+      return;
+    }
+    const std::size_t before = static_cast<std::size_t>(failing_);
+    see(x, pdf, density);
+    if (static_cast<std::size_t>(failing_) == before) return;
+    if (density.value < pdf) {
+      if (below_.size() < kBranchPoints) below_.push_back({u, x, pdf});
+      ++failing_below_;
+    }
+  }
+
+  void see(const Vec3& x, double pdf, const DensityAt& density) {
     ++usable_;
-    if (pdf == 0) outcome_.evidence.strays.push_back(x);
     const double error = std::abs(pdf / density.value - 1);
-    ratios.push_back({x, density.value / pdf, 1});
+    RatioSeries& ratios = lobe_ >= 0 ? of_lobes_ : of_whole_;
+    // A sum of densities is known as well as they are rounded.
+    const double known = std::max(density.relative_error, 256 * pair_.epsilon);
+    ratios.points.push_back({x, density.value / pdf, known, lobe_});
     if (!(error <= worst_)) {
       worst_ = error;
       worst_at_ = x;
     }
-    if (!(error <= tolerance_ + 4 * density.relative_error)) ++failing_;
+    if (!agrees(pdf, density)) ++failing_;
+  }
+
+  /// A map that reaches its points on several ways is less dense on each than the pdf of all. Where
+  /// others are found, their sum is held against the pdf in the place of one branch.
+  void look_for_branches() {
+    const BranchSearch search(pair_.sample, dimension(), pair_.epsilon);
+    double several = 0, looked_at = 0, complete = 0, beyond = 0;
+    RatioSeries sums{RatioKind::density_over_pdf, {}};
+    double worst = 0;
+    for (const Below& b : below_) {
+      const std::vector<Uniforms> preimages = search.preimages(b.x, b.u);
+      const auto density = sum_over(preimages, pair_.sample);
+      if (!density || !(density->relative_error <= tolerance_ / 4)) continue;
+      ++looked_at;
+      several += preimages.size() > 1 ? 1 : 0;
+      const bool sum_agrees = agrees(b.pdf, *density);
+      complete += sum_agrees ? 1 : 0;
+      beyond += !sum_agrees && density->value > b.pdf ? 1 : 0;
+      if (sum_agrees) {
+        worst = std::max(worst, std::abs(b.pdf / density->value - 1));
+        sums.points.push_back({b.x, density->value / b.pdf, density->relative_error, -1});
+      }
+    }
+    if (!(several > kManyToOne * looked_at)) return;
+    CheckResult& r = outcome_.result;
+    of_whole_ = std::move(sums);  // single branches say nothing of the whole
+    if (beyond > std::max(kSeamPoints, kSeamShare * looked_at)) {
+      r.reason = "the densities of the branches add up to more than the pdf at " + number(beyond) +
+                 " of " + number(looked_at) + " points";
+      return;
+    }
+    failing_ = 0;
+    worst_ = worst;
+    branches_ = true;
+    if (complete >= kBranchesComplete * looked_at) {
+      r.leaned_on = "convergence of the differences, branches found by a search";
+    } else {
+      r.expected = Verdict::inconclusive;
+      r.reason =
+          "skipped: several random numbers lead to one point, and a search does not find all of "
+          "them; with lobes exposed (lobe_count, lobe_probability, sample_lobe, pdf_lobe) they are "
+          "checked one by one";
+    }
   }
 
   /// pdf = Σ probability · lobe pdf, at points of every lobe.
@@ -239,25 +213,31 @@ class Jacobian {
         double sum = 0;
         for (const PairLobe& l : pair_.lobes) sum += l.probability * l.pdf(sample->x);
         ++tried_;
-        count(sample->x, pair_.pdf(sample->x), {sum, 0}, of_mixture_);
+        see(sample->x, pair_.pdf(sample->x), {sum, 0});
       }
     }
   }
+
+  bool too_many_fail() const { return failing_ > std::max(kSeamPoints, kSeamShare * usable_); }
 
   void finish() {
     CheckResult& r = outcome_.result;
     r.samples = static_cast<std::uint64_t>(usable_);
     r.estimate = r.bound = worst_;
     r.detectable = tolerance_ * 2;
-    r.figures = {
-        {"points tried", tried_}, {"folds, seams, rounding", folds_}, {"failing", failing_}};
+    r.figures = {{"points tried", tried_},
+                 {"folds, seams, rounding", folds_ + seams_},
+                 {"failing", failing_}};
     if (tried_ == 0) {
       r.expected = Verdict::inconclusive;
       r.reason = "the map gave no point of a density";
-    } else if (failing_ > std::max(kSeamPoints, kSeamShare * usable_)) {
+    } else if (too_many_fail()) {
       r.verdict = Verdict::fail;
-      r.reason = "pdf · |dx/du| is off by " + number(worst_) + " at " + place(worst_at_) + ", at " +
-                 number(failing_) + " of " + number(usable_) + " points";
+      if (!r.reason.empty()) r.reason += "; ";
+      r.reason += "pdf · |dx/du| is off by " + number(worst_) + " at " + place(worst_at_) +
+                  ", at " + number(failing_) + " of " + number(usable_) + " points";
+    } else if (branches_ && r.expected == Verdict::inconclusive) {
+      return;  // skipped, and said why
     } else if (folds_ > kMostFolds * tried_) {
       // In float that is rounding, which says nothing against the code: skipped, and said so.
       if (pair_.epsilon > 0x1p-40) r.expected = Verdict::inconclusive;
@@ -272,11 +252,21 @@ class Jacobian {
   Random random_;
   double tolerance_;
   JacobianOutcome outcome_;
-  double tried_ = 0, usable_ = 0, folds_ = 0, failing_ = 0;
+  /// A point that is less dense than the pdf says, as one branch of several would be.
+  struct Below {
+    Uniforms u{};
+    Vec3 x{};
+    double pdf = 0;
+  };
+
+  double tried_ = 0, usable_ = 0, folds_ = 0, seams_ = 0, failing_ = 0, failing_below_ = 0;
+  std::vector<Below> below_;
+  bool branches_ = false;
   double worst_ = 0;
   Vec3 worst_at_{};
-  std::vector<RatioPoint> of_lobes_, of_mixture_;
-  bool lobes_fail_ = false;
+  int lobe_ = -1;  // that points are counted for
+  RatioSeries of_whole_{RatioKind::density_over_pdf, {}};
+  RatioSeries of_lobes_{RatioKind::lobe_density_over_pdf, {}};
 };
 
 }  // namespace
@@ -300,7 +290,11 @@ JacobianOutcome judge_jacobian(const SamplingPair& pair, const ContractOptions& 
 CheckResult check_jacobian(const SamplingPair& pair, const ContractOptions& options) {
   JacobianOutcome outcome = judge_jacobian(pair, options);
   if (outcome.result.verdict == Verdict::fail) {
-    outcome.result.diagnosis = diagnose(pair, outcome.evidence).text;
+    ViewEvidence view;
+    view.pair = &pair;
+    view.ratios = std::move(outcome.ratios);
+    view.failed = true;
+    outcome.result.diagnosis = diagnose({{std::move(view)}, {}, {}}).headline;
   }
   return outcome.result;
 }

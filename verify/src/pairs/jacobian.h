@@ -1,15 +1,20 @@
 #pragma once
 
+#include <vector>
+
 #include <plumbline/verify/pair.h>
 
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/evidence.h"
 
 namespace plumbline::verify {
 
-/// The result of the Jacobian check with the ratio of true to stated density at its points.
+/// The result of the Jacobian check with the ratio of true to stated density at its points: of the
+/// whole, and of each lobe.
 struct JacobianOutcome {
   CheckResult result;
-  RatioEvidence evidence;
+  bool below_everywhere =
+      false;  ///< all that fails is less dense than the pdf: one branch of several?
+  std::vector<RatioSeries> ratios;
 };
 
 JacobianOutcome judge_jacobian(const SamplingPair& pair, const ContractOptions& options);

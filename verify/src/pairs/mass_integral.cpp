@@ -43,7 +43,9 @@ struct TreeCell {
 class Integrator {
  public:
   Integrator(const MassQuestion& question, const std::vector<Cell>& cells)
-      : q_(question), random_(random_for(question.seed, Stream::nodes)), roots_of_bin_(question.bins) {
+      : q_(question),
+        random_(random_for(question.seed, Stream::nodes)),
+        roots_of_bin_(question.bins) {
     std::vector<std::vector<PilotPoint>> of_bin(q_.bins);
     for (const PilotPoint& s : draw_pilot()) of_bin[bin_at(s.p)].push_back(s);
     std::vector<std::vector<Box>> boxes_of_bin(q_.bins);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/diagnosis.h"
 #include "streams.h"
 #include "text.h"
 
@@ -25,10 +26,7 @@ class Property {
     outcome_.result.reference = 0;
   }
 
-  void quotient(const char* text, const char* denominator) {
-    outcome_.evidence.quotient = text;
-    outcome_.evidence.denominator = denominator;
-  }
+  void seen_as(RatioKind kind) { outcome_.ratios.kind = kind; }
 
   /// @param reason  only built where it failed
   template <class Reason>
@@ -38,9 +36,11 @@ class Property {
     if (failed_++ == 0) outcome_.result.reason = reason();
   }
 
-  void ratio(const Vec3& x, double value) {
-    if (outcome_.evidence.points.size() < kEnoughRatios)
-      outcome_.evidence.points.push_back({x, value, 1});
+  /// @param error  relative, only asked for where it is kept
+  template <class Error>
+  void ratio(const Vec3& x, double value, const Error& error) {
+    if (outcome_.ratios.points.size() < kEnoughRatios)
+      outcome_.ratios.points.push_back({x, value, error()});
   }
 
   void deviation(double relative) {
@@ -94,8 +94,8 @@ class Pointwise {
         support_(pair, options, "support"),
         finite_(pair, options, "finite"),
         discrete_(pair.domain.dimension() == 0) {
-    record_.quotient("record pdf/pdf()", "pdf()");
-    weight_.quotient("weight·pdf/(f·|cosθ|)", "f·|cosθ|");
+    record_.seen_as(RatioKind::record_over_pdf);
+    weight_.seen_as(RatioKind::weight_over_value);
   }
 
   std::vector<PointwiseOutcome> run(int points) {
@@ -210,7 +210,8 @@ class Pointwise {
       return "the record states pdf " + number(stated) + ", pdf() gives " + number(pdf) + " at " +
              where();
     });
-    record_.ratio(sample.x, stated / pdf);
+    record_.ratio(sample.x, stated / pdf,
+                  [&] { return rounding_of(sample.x, pair_.pdf) + kRounding * pair_.epsilon; });
     if (pdf > 0) record_.deviation(std::abs(stated / pdf - 1));
   }
 
@@ -228,7 +229,10 @@ class Pointwise {
                agree(product, value[c], sample.x,
                      [&](const Vec3& x) { return sample.weight[c] * pair_.pdf(x); });
       if (value[c] == largest && largest > 0) {
-        weight_.ratio(sample.x, product / value[c]);
+        weight_.ratio(sample.x, product / value[c], [&] {
+          return rounding_of(sample.x, of_channel) + rounding_of(sample.x, pair_.pdf) +
+                 kRounding * pair_.epsilon;
+        });
         if (agrees) weight_.deviation(std::abs(product / value[c] - 1));
       }
     }
@@ -236,6 +240,20 @@ class Pointwise {
       return "weight · pdf differs from f·|cosθ|, e.g. " + number(sample.weight[0] * pdf) +
              " against " + number(value[0]) + " at " + where();
     });
+  }
+
+  /// What rounding of the point that f is asked at may change, relative.
+  template <class F>
+  double rounding_of(const Vec3& x, const F& f) const {
+    if (discrete_) return 0;
+    const double here = f(x);
+    double spread = 0;
+    for (int k = 0; k < 4; ++k) {
+      const double angle = k * std::numbers::pi / 2;
+      const Vec3 beside = pair_.domain.chart().near(x, 8 * pair_.epsilon, angle);
+      spread = std::max(spread, std::abs(f(beside) / here - 1));
+    }
+    return std::isfinite(spread) ? spread : 1.0;
   }
 
   /// Equal up to rounding: of the numbers themselves, or of the point that f is asked at.
@@ -269,11 +287,17 @@ std::vector<PointwiseOutcome> judge_pointwise(const SamplingPair& pair,
 
 std::vector<CheckResult> check_pointwise(const SamplingPair& pair, const ContractOptions& options) {
   std::vector<CheckResult> results;
+  ViewEvidence view;
+  view.pair = &pair;
   for (PointwiseOutcome& outcome : judge_pointwise(pair, options)) {
-    if (outcome.result.verdict == Verdict::fail) {
-      outcome.result.diagnosis = diagnose(pair, outcome.evidence).text;
-    }
+    view.failed = view.failed || outcome.result.verdict == Verdict::fail;
+    if (!outcome.ratios.points.empty()) view.ratios.push_back(std::move(outcome.ratios));
     results.push_back(std::move(outcome.result));
+  }
+  if (!view.failed) return results;
+  const Cause cause = diagnose({{std::move(view)}, {}, {}});
+  for (CheckResult& r : results) {
+    if (r.verdict == Verdict::fail) r.diagnosis = cause.headline;
   }
   return results;
 }

@@ -4,13 +4,13 @@
 
 #include <plumbline/verify/pair.h>
 
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/evidence.h"
 
 namespace plumbline::verify {
 
 struct PointwiseOutcome {
   CheckResult result;
-  RatioEvidence evidence;
+  RatioSeries ratios;  ///< empty where the property is none of a ratio
 };
 
 /// One outcome per property that the pair can be held to.

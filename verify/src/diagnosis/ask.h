@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "diagnosis/evidence.h"
+
+/// The questions that a diagnosis asks of code under test.
+namespace plumbline::verify {
+
+/// A pair of directions, or a point, with what a ratio is over there: pdf(), or f·|cosθ|.
+struct Place {
+  const ViewEvidence* view = nullptr;
+  Vec3 wo{}, x{};
+  double base = 0;
+};
+
+inline bool has_wo(const ViewEvidence& view) { return view.wo.has_value(); }
+
+inline double pdf_at(const ViewEvidence& view, const Vec3& x) { return view.pair->pdf(x); }
+
+inline double pdf_at(const ViewEvidence& view, const Vec3& wo, const Vec3& wi) {
+  return view.bsdf->pdf(wo, wi);
+}
+
+/// Brightest channel of f·|cosθ|.
+inline double value_at(const ViewEvidence& view, const Vec3& x) {
+  if (!view.pair->value) return 0;
+  const Channels c = view.pair->value(x);
+  return c.count > 0 ? *std::max_element(c.value.begin(), c.value.begin() + c.count) : 0.0;
+}
+
+inline double f_at(const ViewEvidence& view, const Vec3& wo, const Vec3& wi) {
+  const Channels c = view.bsdf->eval(wo, wi);
+  return c.count > 0 ? *std::max_element(c.value.begin(), c.value.begin() + c.count) : 0.0;
+}
+
+inline bool is_finite(const Vec3& x) {
+  return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+}
+
+}  // namespace plumbline::verify

@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/geometry.h"
+#include "diagnosis/hypothesis.h"
+#include "text.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+using Numbers = std::vector<std::vector<double>>;
+
+/// Above the horizon or below it: for a BSDF, on the side of wo or through the surface.
+bool beyond(const Place& p) { return has_wo(*p.view) ? transmits(p.wo, p.x) : p.x[2] < 0; }
+
+std::string side_name(bool bsdf, bool other) {
+  if (bsdf) return other ? "in transmission" : "in reflection";
+  return other ? "below the horizon" : "above the horizon";
+}
+
+std::string constant_name(double c, double error) {
+  const std::string usual = usual_constant(c, error);
+  return usual.empty() ? number(c) : usual;
+}
+
+/// Without samples to reject, a density that is too small by its own lack of mass is one of samples
+/// that were drawn again until they were accepted.
+bool draws_again(const Observations& observations, const Numbers& numbers, double error) {
+  bool lacks = false;
+  for (std::size_t v = 0; v < numbers.size(); ++v) {
+    const ViewEvidence& view = *observations.views()[v].view;
+    if (!view.mass || view.mass->rejected > 1e-6 || view.stray_share > 0) return false;
+    if (numbers[v][0] < -error) return false;
+    lacks = lacks || numbers[v][0] > 2 * error;
+  }
+  return lacks;
+}
+
+void add_everywhere(std::vector<Hypothesis>& list, const Blame& blame, double error) {
+  Hypothesis h;
+  h.kind = CauseKind::constant;
+  h.starts = {{0.0}};
+  h.prediction = [](const Place& p, std::span<const double> n) { return p.base * std::exp(n[0]); };
+  h.charge = [error](const Numbers& n) -> std::optional<double> {
+    if (std::abs(n.front()[0]) <= error / 4) return std::nullopt;
+    return usual_constant(std::exp(n.front()[0]), error).empty() ? -kPerNumber / 2 : -kPerNumber;
+  };
+  h.words = [=](std::span<const double> n) {
+    const std::string c = constant_name(std::exp(n[0]), error);
+    return "constant factor " + c + " missing from " + blame.function + ": " + blame.numerator +
+           " is " + c + " times as large everywhere";
+  };
+  list.push_back(std::move(h));
+}
+
+void add_on_sides(std::vector<Hypothesis>& list, bool bsdf, const Blame& blame, double error) {
+  for (const bool other : {false, true}) {
+    Hypothesis h;
+    h.kind = CauseKind::constant_per_hemisphere;
+    h.starts = {{0.0}};
+    h.complexity = 1;
+    h.prediction = [other](const Place& p, std::span<const double> n) {
+      return beyond(p) == other ? p.base * std::exp(n[0]) : p.base;
+    };
+    h.charge = [error](const Numbers& n) -> std::optional<double> {
+      return usual_constant(std::exp(n.front()[0]), error).empty() ? 0 : -kPerNumber / 2;
+    };
+    h.words = [=](std::span<const double> n) {
+      return "constant factor " + constant_name(std::exp(n[0]), error) + " missing from " +
+             blame.function + " " + side_name(bsdf, other) + ", not " + side_name(bsdf, !other);
+    };
+    list.push_back(std::move(h));
+  }
+  Hypothesis h;
+  h.kind = CauseKind::constant_per_hemisphere;
+  h.starts = {{0.0, 0.0}};
+  h.prediction = [](const Place& p, std::span<const double> n) {
+    return p.base * std::exp(n[beyond(p) ? 1 : 0]);
+  };
+  h.words = [=](std::span<const double> n) {
+    return "constant factors missing from " + blame.function + ": " +
+           constant_name(std::exp(n[0]), error) + " " + side_name(bsdf, false) + ", " +
+           constant_name(std::exp(n[1]), error) + " " + side_name(bsdf, true);
+  };
+  list.push_back(std::move(h));
+}
+
+void add_by_view(std::vector<Hypothesis>& list, const Blame& blame,
+                 const Observations& observations, double error) {
+  Hypothesis again;
+  again.kind = CauseKind::not_rejected;
+  again.starts = {{0.0}};
+  again.per_view = true;
+  again.prediction = [](const Place& p, std::span<const double> n) {
+    return p.base * std::exp(n[0]);
+  };
+  again.charge = [&observations, error](const Numbers& n) -> std::optional<double> {
+    if (!draws_again(observations, n, error)) return std::nullopt;
+    return -kPerNumber * static_cast<double>(n.size()) + 20;
+  };
+  again.words = [blame](std::span<const double> n) {
+    return "samples that ought to be rejected are drawn again, and " + blame.function +
+           " does not know: it lacks 1/(accepted share), here " + number(std::exp(n[0]));
+  };
+  list.push_back(std::move(again));
+
+  // Reflection and transmission chosen with probabilities P and 1 − P that the density lacks.
+  Hypothesis chosen;
+  chosen.kind = CauseKind::lobe_probability;
+  chosen.starts = {{-3.0}, {0.0}, {3.0}};
+  chosen.per_view = true;
+  chosen.complexity = 1;
+  chosen.prediction = [](const Place& p, std::span<const double> n) {
+    const double through = 1 / (1 + std::exp(-n[0]));
+    return p.base * (beyond(p) ? through : 1 - through);
+  };
+  chosen.words = [blame](std::span<const double> n) {
+    return "the probability of reflection (here " + number(1 / (1 + std::exp(n[0]))) +
+           ") and that of transmission are missing from " + blame.function;
+  };
+  list.push_back(std::move(chosen));
+  for (const bool other : {false, true}) {
+    Hypothesis one;
+    one.kind = CauseKind::lobe_probability;
+    one.starts = {{0.0}};
+    one.per_view = true;
+    one.complexity = 2;
+    one.prediction = [other](const Place& p, std::span<const double> n) {
+      return beyond(p) == other ? p.base * std::exp(n[0]) : p.base;
+    };
+    one.words = [=](std::span<const double> n) {
+      return std::string("the probability of ") + (other ? "transmission" : "reflection") +
+             " is wrong in, or missing from, " + blame.function + ": by " + number(std::exp(n[0])) +
+             " here";
+    };
+    list.push_back(std::move(one));
+  }
+}
+
+}  // namespace
+
+std::vector<Hypothesis> constant_hypotheses(const ReportEvidence& evidence, const Blame& blame,
+                                            const Observations& observations) {
+  std::vector<Hypothesis> list;
+  const double error = error_of_constant(observations);
+  const ViewEvidence& view = evidence.views.front();
+  const bool bsdf = view.bsdf != nullptr && has_wo(view);
+  add_everywhere(list, blame, error);
+  if (!view.pair->domain.directions()) return list;
+  bool above = false, below = false;
+  for (const ViewObservations& v : observations.views()) {
+    for (const ExactPoint& p : v.exact) (beyond(p.place) ? below : above) = true;
+    for (const CountedBin& b : v.bins) (beyond(b.nodes[0]) ? below : above) = true;
+  }
+  if (above && below) add_on_sides(list, bsdf, blame, error);
+  if (bsdf) add_by_view(list, blame, observations, error);
+  return list;
+}
+
+}  // namespace plumbline::verify

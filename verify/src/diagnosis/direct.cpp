@@ -1,0 +1,245 @@
+#include "diagnosis/direct.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "diagnosis/ask.h"
+#include "text.h"
+#include "vec3.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+constexpr std::uint64_t kSeed = 0x5eed;
+constexpr std::uint64_t kStream = 40;
+constexpr std::size_t kViewsAsked = 4;
+
+/// Failing views first: they show what went wrong.
+std::vector<const ViewEvidence*> views_to_ask(const ReportEvidence& evidence) {
+  std::vector<const ViewEvidence*> views;
+  for (const bool failed : {true, false}) {
+    for (const ViewEvidence& v : evidence.views) {
+      if (v.failed == failed && views.size() < kViewsAsked) views.push_back(&v);
+    }
+  }
+  return views;
+}
+
+std::vector<SampleRecord> draw_samples(const ViewEvidence& view, int count) {
+  Random random(kSeed, kStream);
+  std::vector<SampleRecord> samples;
+  for (int i = 0; i < count; ++i) {
+    const auto s = view.pair->next(random);
+    if (s && is_finite(s->x)) samples.push_back(*s);
+  }
+  return samples;
+}
+
+bool differ(double a, double b, double epsilon) {
+  if (std::isnan(a) && std::isnan(b)) return false;
+  return !(std::abs(a - b) <= 64 * epsilon * std::max(std::abs(a), std::abs(b)));
+}
+
+}  // namespace
+
+std::optional<Finding> find_stale_state(const ReportEvidence& evidence) {
+  constexpr int kSamples = 64;
+  const auto views = views_to_ask(evidence);
+  std::vector<std::vector<SampleRecord>> samples;
+  std::vector<std::vector<std::array<double, 2>>> first;
+  for (const ViewEvidence* v : views) {
+    Random random(kSeed, kStream);
+    samples.emplace_back();
+    first.emplace_back();
+    for (int i = 0; i < kSamples; ++i) {
+      const auto s = v->pair->next(random);
+      if (!s || !is_finite(s->x) || s->mass > 0) continue;
+      samples.back().push_back(*s);
+      first.back().push_back({pdf_at(*v, s->x), value_at(*v, s->x)});
+    }
+  }
+  for (std::size_t k = views.size(); k-- > 0;) {
+    for (std::size_t i = samples[k].size(); i-- > 0;) {
+      const double pdf = pdf_at(*views[k], samples[k][i].x);
+      const double value = value_at(*views[k], samples[k][i].x);
+      const double epsilon = views[k]->pair->epsilon;
+      if (differ(pdf, first[k][i][0], epsilon) || differ(value, first[k][i][1], epsilon)) {
+        return Finding{CauseKind::stale_state,
+                       std::string(differ(pdf, first[k][i][0], epsilon) ? "pdf()" : "f") +
+                           " gives another answer to the same question after other questions (" +
+                           number(first[k][i][0]) + ", then " + number(pdf) +
+                           "): state is kept between calls"};
+      }
+    }
+  }
+  for (const ViewEvidence* v : views) {
+    if (v->pair->draw || !v->pair->sample) continue;
+    Random random(kSeed, kStream + 1);
+    for (int i = 0; i < kSamples; ++i) {
+      const Uniforms u{random.uniform(), random.uniform(), random.uniform()};
+      const Uniforms w{random.uniform(), random.uniform(), random.uniform()};
+      const auto a = v->pair->sample(u);
+      v->pair->sample(w);
+      const auto b = v->pair->sample(u);
+      const bool same = a.has_value() == b.has_value() && (!a || a->x == b->x);
+      if (!same && !(a && !is_finite(a->x))) {
+        return Finding{CauseKind::stale_state,
+                       "sample gives another point for the same numbers after other calls: state "
+                       "is kept between calls"};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+/// How the values of one coordinate crowd.
+struct Crowd {
+  double largest = 0;    ///< share of the most frequent value
+  double different = 0;  ///< share of values that occur once
+  double value = 0;
+  std::size_t distinct = 0;
+};
+
+Crowd crowd_of(std::vector<double> values) {
+  Crowd crowd;
+  if (values.empty()) return crowd;
+  std::sort(values.begin(), values.end());
+  const double n = static_cast<double>(values.size());
+  std::size_t once = 0;
+  for (std::size_t i = 0; i < values.size();) {
+    std::size_t j = i;
+    while (j < values.size() && values[j] == values[i]) ++j;
+    ++crowd.distinct;
+    once += j - i == 1 ? 1 : 0;
+    if (static_cast<double>(j - i) / n > crowd.largest) {
+      crowd.largest = static_cast<double>(j - i) / n;
+      crowd.value = values[i];
+    }
+    i = j;
+  }
+  crowd.different = static_cast<double>(once) / n;
+  return crowd;
+}
+
+constexpr double kCrowd = 0.005;
+
+}  // namespace
+
+std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
+  constexpr int kSamples = 8192;
+  for (const ViewEvidence* v : views_to_ask(evidence)) {
+    if (v->pair->domain.dimension() == 0) continue;
+    const auto names =
+        v->pair->domain.directions()
+            ? std::array<const char*, 3>{"x", "y", "z"}
+            : std::array<const char*, 3>{"first coordinate", "second coordinate", ""};
+    std::array<std::vector<double>, 3> coordinates;
+    for (const SampleRecord& s : draw_samples(*v, kSamples)) {
+      if (s.mass > 0) continue;
+      if (v->pair->domain.directions()) {
+        for (std::size_t i = 0; i < 3; ++i) coordinates[i].push_back(s.x[i] + 0.0);
+      } else {
+        // Surfaces lie in planes, which is no fault: the chart's coordinates vary.
+        const Point2 p = v->pair->domain.chart().to_square(s.x);
+        for (std::size_t i = 0; i < 2; ++i) coordinates[i].push_back(p[i]);
+      }
+    }
+    int crowded = 0, varying = 0;
+    std::string where;
+    double share = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (coordinates[i].size() < kSamples / 20) continue;
+      const auto count = static_cast<double>(coordinates[i].size());
+      const Crowd c = crowd_of(std::move(coordinates[i]));
+      // A coordinate that never changes is the chart's: a line has one only.
+      if (c.distinct <= 1 && !v->pair->domain.directions()) continue;
+      ++varying;
+      if (v->pair->epsilon > 0x1p-40 && c.distinct > 4 && c.different < 0.2 &&
+          static_cast<double>(c.distinct) < count / 8) {
+        return Finding{CauseKind::precision,
+                       "samples take few different values (" + number(std::uint64_t(c.distinct)) +
+                           " of " + names[i] + " in " + number(count) +
+                           " samples): what is sampled is narrower than the arithmetic resolves"};
+      }
+      if (c.largest < kCrowd || c.different < 0.05 * (1 - c.largest)) continue;
+      ++crowded;
+      share = std::max(share, c.largest);
+      where += (where.empty() ? "" : ", ") + std::string(names[i]) + " = " + number(c.value);
+    }
+    if (crowded == 0) continue;
+    const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
+    if (crowded >= varying || (v->pair->domain.dimension() == 1)) {
+      return Finding{CauseKind::on_a_line, some + " lie in one point, " + where +
+                                               ": a clamp, or an atom that is not said to be one"};
+    }
+    return Finding{CauseKind::on_a_line, some + " lie on a line, " + where + ": a clamp?"};
+  }
+  return std::nullopt;
+}
+
+std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence) {
+  constexpr int kSamples = 1024;
+  for (const ViewEvidence* v : views_to_ask(evidence)) {
+    double atoms = 0, points = 0;
+    for (const SampleRecord& s : draw_samples(*v, kSamples)) {
+      (s.mass > 0 ? atoms : points) += 1;
+      if (s.mass > 0 && s.pdf && *s.pdf > 0) {
+        return Finding{CauseKind::atom_as_density, "a sample that is an atom of mass " +
+                                                       number(s.mass) + " states a density, " +
+                                                       number(*s.pdf)};
+      }
+    }
+    if (atoms > 0 && points == 0 && v->mass && v->mass->integral > 10 * v->mass->integral_error &&
+        v->mass->integral > 1e-6) {
+      return Finding{
+          CauseKind::atom_as_density,
+          "all samples are atoms, but pdf() gives a density, ∫pdf = " + number(v->mass->integral)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Finding> find_not_finite(const ReportEvidence& evidence) {
+  constexpr int kSamples = 4096;
+  const auto bad = [](double x) { return !std::isfinite(x) || x < 0; };
+  for (const ViewEvidence* v : views_to_ask(evidence)) {
+    Random random(kSeed, kStream);
+    for (int i = 0; i < kSamples; ++i) {
+      const auto s = v->pair->next(random);
+      if (s && !is_finite(s->x)) {
+        return Finding{CauseKind::not_finite, "a sampled point is not finite"};
+      }
+      Vec3 x = s ? s->x : Vec3{};
+      for (int k = 0; k < 2; ++k) {
+        if (k == 1 || !s || s->mass > 0) {
+          if (v->pair->domain.dimension() == 0) break;
+          x = v->pair->domain.chart().from_square({random.uniform(), random.uniform()});
+        }
+        const double pdf = pdf_at(*v, x);
+        if (bad(pdf)) {
+          return Finding{CauseKind::not_finite, "pdf() is " + number(pdf) + " at (" + number(x[0]) +
+                                                    ", " + number(x[1]) + ", " + number(x[2]) +
+                                                    ")"};
+        }
+        if (const double f = value_at(*v, x); !std::isfinite(f)) {
+          return Finding{CauseKind::not_finite, "f is " + number(f) + " at (" + number(x[0]) +
+                                                    ", " + number(x[1]) + ", " + number(x[2]) +
+                                                    ")"};
+        }
+      }
+      if (s && s->weight.count > 0 && !std::isfinite(s->weight[0])) {
+        return Finding{CauseKind::not_finite, "a weight is " + number(s->weight[0])};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace plumbline::verify

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <plumbline/verify/detail/cause.h>
+
+#include "diagnosis/evidence.h"
+
+/// Causes that are seen without any fit: by asking twice, or by where samples fall.
+namespace plumbline::verify {
+
+struct Finding {
+  CauseKind kind = CauseKind::none;
+  std::string words;
+};
+
+/// The same question gets another answer after other questions.
+std::optional<Finding> find_stale_state(const ReportEvidence& evidence);
+
+/// Samples that share a coordinate to the last bit, or of which there are few different ones.
+std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence);
+
+/// Records of atoms that state a density; nothing but atoms beside a density.
+std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence);
+
+/// NaN, infinity or a negative density.
+std::optional<Finding> find_not_finite(const ReportEvidence& evidence);
+
+/// What the numerator of a ratio depends on, judged by samples that lie next to each other.
+enum class Dependence {
+  on_the_point,     ///< neighbours agree
+  on_a_choice,      ///< neighbours fall in two groups
+  on_the_last_bits  ///< neighbours scatter
+};
+
+/// Of the record's pdf, or weight · pdf() (of_weight).
+Dependence dependence_of(const ReportEvidence& evidence, bool of_weight);
+
+/// Left and right of the plane of incidence the pdf is the same, and turned around the normal it is
+/// as well; but samples are not.
+bool samples_break_a_symmetry(const ReportEvidence& evidence);
+
+/// The map from numbers to samples jumps: something is chosen by one of the numbers.
+bool map_jumps(const ViewEvidence& view);
+
+}  // namespace plumbline::verify

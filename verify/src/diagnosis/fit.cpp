@@ -1,0 +1,121 @@
+#include "diagnosis/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumbline::verify {
+
+namespace {
+
+using Numbers = std::vector<double>;
+
+double squares(const Numbers& residuals) {
+  double sum = 0;
+  for (const double r : residuals) sum += r * r;
+  return std::isfinite(sum) ? sum : std::numeric_limits<double>::max();
+}
+
+/// Solves the small positive definite system by Gaussian elimination.
+Numbers solve(std::vector<Numbers> a, Numbers b) {
+  const std::size_t n = b.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t r = i + 1; r < n; ++r) {
+      const double factor = a[i][i] != 0 ? a[r][i] / a[i][i] : 0;
+      for (std::size_t c = i; c < n; ++c) a[r][c] -= factor * a[i][c];
+      b[r] -= factor * b[i];
+    }
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t c = i + 1; c < n; ++c) b[i] -= a[i][c] * b[c];
+    b[i] = a[i][i] != 0 ? b[i] / a[i][i] : 0;
+  }
+  return b;
+}
+
+class LeastSquares {
+ public:
+  LeastSquares(const Observations& observations, const Prediction& prediction, int view)
+      : observations_(observations), prediction_(prediction), view_(view) {}
+
+  Numbers residuals(const Numbers& p, bool flatten) const {
+    return observations_.residuals(prediction_, p, view_, flatten);
+  }
+
+  Numbers descend(Numbers p, bool flatten) const {
+    constexpr int kSteps = 40;
+    double damping = 1e-3;
+    Numbers r = residuals(p, flatten);
+    double cost = squares(r);
+    for (int step = 0; step < kSteps && damping < 1e12 && !r.empty(); ++step) {
+      const std::vector<Numbers> slopes = derivatives(p, flatten);
+      std::vector<Numbers> normal(p.size(), Numbers(p.size()));
+      Numbers right(p.size());
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        for (std::size_t j = 0; j < p.size(); ++j) {
+          for (std::size_t k = 0; k < r.size(); ++k) normal[i][j] += slopes[i][k] * slopes[j][k];
+        }
+        for (std::size_t k = 0; k < r.size(); ++k) right[i] -= slopes[i][k] * r[k];
+        normal[i][i] *= 1 + damping;
+      }
+      Numbers moved = solve(normal, right);
+      double largest = 0;
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        largest = std::max(largest, std::abs(moved[i]));
+        moved[i] += p[i];
+      }
+      Numbers then = residuals(moved, flatten);
+      if (const double lower = squares(then); lower < cost) {
+        p = std::move(moved);
+        r = std::move(then);
+        cost = lower;
+        damping /= 8;
+        if (largest < 1e-15) break;
+      } else {
+        damping *= 8;
+      }
+    }
+    return p;
+  }
+
+ private:
+  std::vector<Numbers> derivatives(const Numbers& p, bool flatten) const {
+    std::vector<Numbers> slopes;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const double h = 1e-6 * std::max(1.0, std::abs(p[i]));
+      Numbers above = p, below = p;
+      above[i] += h;
+      below[i] -= h;
+      Numbers a = residuals(above, flatten);
+      const Numbers b = residuals(below, flatten);
+      for (std::size_t k = 0; k < a.size(); ++k) a[k] = (a[k] - b[k]) / (2 * h);
+      slopes.push_back(std::move(a));
+    }
+    return slopes;
+  }
+
+  const Observations& observations_;
+  const Prediction& prediction_;
+  int view_;
+};
+
+}  // namespace
+
+std::vector<double> fit_parameters(const Observations& observations, const Prediction& prediction,
+                                   const std::vector<std::vector<double>>& starts, int view) {
+  const LeastSquares problem(observations, prediction, view);
+  // Exact ratios make a valley so narrow that only the right start lies in it; as if known to a
+  // percent, it is wide.
+  Numbers best = starts.front();
+  double lowest = std::numeric_limits<double>::max();
+  for (const Numbers& start : starts) {
+    const double cost = squares(problem.residuals(start, true));
+    if (cost < lowest) {
+      lowest = cost;
+      best = start;
+    }
+  }
+  return problem.descend(problem.descend(std::move(best), true), false);
+}
+
+}  // namespace plumbline::verify

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/observations.h"
+
+namespace plumbline::verify {
+
+/// Free numbers of a prediction by least squares on every other point (Levenberg and Marquardt),
+/// from the best of the starts.
+///
+/// @param view  fitted to this view alone; −1: to all
+std::vector<double> fit_parameters(const Observations& observations, const Prediction& prediction,
+                                   const std::vector<std::vector<double>>& starts, int view);
+
+}  // namespace plumbline::verify

@@ -1,0 +1,122 @@
+#include "diagnosis/hypothesis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "diagnosis/fit.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+std::optional<Explanation> try_one(const Observations& observations, const Hypothesis& h) {
+  Explanation e;
+  e.hypothesis = &h;
+  const std::size_t views = observations.views().size();
+  e.numbers.resize(views);
+  double free = 0;
+  if (!h.starts.empty()) {
+    const double each = static_cast<double>(h.starts.front().size());
+    if (h.per_view) {
+      for (std::size_t v = 0; v < views; ++v) {
+        e.numbers[v] = fit_parameters(observations, h.prediction, h.starts, static_cast<int>(v));
+      }
+      free = each * static_cast<double>(std::max<std::size_t>(1, views));
+    } else {
+      const auto fitted = fit_parameters(observations, h.prediction, h.starts, -1);
+      std::fill(e.numbers.begin(), e.numbers.end(), fitted);
+      free = each;
+    }
+  }
+  const Fit fit = observations.judge(
+      h.prediction, [&e](std::size_t v) { return std::span<const double>(e.numbers[v]); });
+  if (!fit.admissible) return std::nullopt;
+  const std::optional<double> charge = h.charge ? h.charge(e.numbers) : 0.0;
+  if (!charge) return std::nullopt;
+  e.cost = kPerNumber * free + h.complexity + *charge;
+  e.worst = fit.worst;
+  return e;
+}
+
+}  // namespace
+
+std::vector<Explanation> explain(const Observations& observations,
+                                 const std::vector<Hypothesis>& hypotheses) {
+  std::vector<Explanation> admissible;
+  for (const Hypothesis& h : hypotheses) {
+    if (auto e = try_one(observations, h)) admissible.push_back(std::move(*e));
+  }
+  std::stable_sort(admissible.begin(), admissible.end(),
+                   [](const Explanation& a, const Explanation& b) { return a.cost < b.cost; });
+  return admissible;
+}
+
+double error_of_constant(const Observations& observations) {
+  constexpr double kPulls = 4;
+  std::vector<double> errors;
+  double counts = 0;
+  for (const ViewObservations& v : observations.views()) {
+    for (const ExactPoint& p : v.exact) errors.push_back(p.error);
+    for (const CountedBin& b : v.bins) counts += b.observed;
+  }
+  double error = counts > 0 ? kPulls / std::sqrt(counts) : 0.5;
+  if (errors.size() >= 8) {
+    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+    std::nth_element(errors.begin(), middle, errors.end());
+    error = std::min(error, kPulls * *middle + 1e-8);
+  }
+  return error;
+}
+
+std::string usual_constant(double value, double error) {
+  constexpr double kPi = std::numbers::pi;
+  struct Usual {
+    double value;
+    const char* name;
+  };
+  static constexpr Usual kUsual[] = {{2, "2"},
+                                     {3, "3"},
+                                     {4, "4"},
+                                     {5, "5"},
+                                     {6, "6"},
+                                     {8, "8"},
+                                     {9, "9"},
+                                     {10, "10"},
+                                     {12, "12"},
+                                     {16, "16"},
+                                     {kPi, "π"},
+                                     {2 * kPi, "2π"},
+                                     {4 * kPi, "4π"},
+                                     {8 * kPi, "8π"},
+                                     {kPi / 2, "π/2"},
+                                     {kPi / 3, "π/3"},
+                                     {kPi / 4, "π/4"},
+                                     {kPi * kPi, "π²"},
+                                     {2 * kPi * kPi, "2π²"},
+                                     {1.5, "3/2"},
+                                     {4.0 / 3, "4/3"},
+                                     {kPi / 6, "π/6"},
+                                     {4 * kPi / 3, "4π/3"},
+                                     {std::numbers::sqrt2, "√2"}};
+  std::string name;
+  int found = 0;
+  for (const Usual& u : kUsual) {
+    const bool direct = std::abs(std::log(value / u.value)) <= error;
+    const bool inverse = std::abs(std::log(value * u.value)) <= error;
+    if (!direct && !inverse) continue;
+    ++found;
+    const std::string text = u.name;
+    if (direct) {
+      name = text;
+    } else if (const auto slash = text.find('/'); slash != std::string::npos) {
+      name = text.substr(slash + 1) + "/" + text.substr(0, slash);
+    } else {
+      name = "1/" + (text.size() > 2 && text.substr(0, 2) != "1" ? "(" + text + ")" : text);
+    }
+  }
+  return found == 1 ? name : std::string();
+}
+
+}  // namespace plumbline::verify

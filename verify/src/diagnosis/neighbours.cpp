@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "diagnosis/ask.h"
+#include "diagnosis/direct.h"
+#include "vec3.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+constexpr std::uint64_t kSeed = 0x5eed;
+constexpr std::uint64_t kStream = 42;
+constexpr std::size_t kGroup = 8;
+
+struct Valued {
+  Vec3 x{};
+  double logarithm = 0;
+};
+
+std::vector<Valued> valued_samples(const ViewEvidence& view, bool of_weight) {
+  constexpr int kSamples = 3000;
+  Random random(kSeed, kStream);
+  std::vector<Valued> out;
+  for (int i = 0; i < kSamples; ++i) {
+    const auto s = view.pair->next(random);
+    if (!s || s->mass > 0 || !is_finite(s->x)) continue;
+    const double pdf = pdf_at(view, s->x);
+    double ratio = s->pdf.value_or(kNotApplicable) / pdf;
+    if (of_weight) {
+      const double value = value_at(view, s->x);
+      const double weight = s->weight.count > 0
+                                ? *std::max_element(s->weight.value.begin(),
+                                                    s->weight.value.begin() + s->weight.count)
+                                : 0;
+      ratio = weight * pdf / value;
+    }
+    if (ratio > 0 && std::isfinite(ratio)) out.push_back({s->x, std::log(ratio)});
+  }
+  return out;
+}
+
+/// Logarithms of a sample and its nearest ones, sorted.
+std::array<double, kGroup> group_around(const std::vector<Valued>& all, std::size_t center) {
+  std::vector<std::pair<double, double>> by_distance;
+  by_distance.reserve(all.size());
+  for (const Valued& v : all) {
+    const Vec3 d = sum(v.x, scaled(all[center].x, -1));
+    by_distance.emplace_back(dot(d, d), v.logarithm);
+  }
+  std::partial_sort(by_distance.begin(), by_distance.begin() + kGroup, by_distance.end());
+  std::array<double, kGroup> values{};
+  for (std::size_t i = 0; i < kGroup; ++i) values[i] = by_distance[i].second;
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+}  // namespace
+
+Dependence dependence_of(const ReportEvidence& evidence, bool of_weight) {
+  constexpr std::size_t kGroups = 200;
+  // Two groups with little in between them; a smooth function spreads its values out.
+  constexpr double kGap = 0.85;
+  double uneven = 0, in_two = 0, groups = 0, scatter = 0, whole = 0;
+  for (const ViewEvidence& v : evidence.views) {
+    if (v.pair->domain.dimension() == 0) continue;
+    const std::vector<Valued> all = valued_samples(v, of_weight);
+    if (all.size() < 4 * kGroups) continue;
+    double low = 1e300, high = -1e300, total = 0;
+    for (const Valued& a : all) {
+      low = std::min(low, a.logarithm);
+      high = std::max(high, a.logarithm);
+    }
+    const double unit = 4096 * v.pair->epsilon;
+    if (high - low < unit) continue;
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      const auto values = group_around(all, g * (all.size() / kGroups));
+      const double range = values.back() - values.front();
+      ++groups;
+      total += range;
+      if (range < unit) continue;
+      ++uneven;
+      double largest = 0;
+      for (std::size_t i = 2; i + 1 < kGroup; ++i) {
+        largest = std::max(largest, values[i] - values[i - 1]);
+      }
+      if (largest > kGap * range) ++in_two;
+    }
+    scatter += total / double(kGroups);
+    whole += high - low;
+    if (groups >= 4 * kGroups) break;
+  }
+  if (groups == 0 || uneven == 0) return Dependence::on_the_point;
+  if (in_two > 0.3 * uneven && in_two > 0.1 * groups) return Dependence::on_a_choice;
+  if (scatter > 0.3 * whole) return Dependence::on_the_last_bits;
+  return Dependence::on_the_point;
+}
+
+namespace {
+
+Vec3 turned(const Vec3& w, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * w[0] - s * w[1], s * w[0] + c * w[1], w[2]};
+}
+
+/// Across the plane of incidence, which contains the normal and wo.
+double across(const Vec3& wo, const Vec3& x) { return wo[0] * x[1] - wo[1] * x[0]; }
+
+bool is_symmetric(const ViewEvidence& view, const std::vector<Vec3>& points) {
+  const Vec3& wo = *view.wo;
+  const double r2 = wo[0] * wo[0] + wo[1] * wo[1];
+  double near = 0, tested = 0;
+  for (const Vec3& x : points) {
+    const double here = pdf_at(view, x);
+    if (!(here > 0)) continue;
+    const double a = across(wo, x) / r2;
+    const Vec3 mirrored = {x[0] + 2 * a * wo[1], x[1] - 2 * a * wo[0], x[2]};
+    const double there = pdf_at(view, mirrored);
+    const double around = pdf_at(view, turned(wo, 1.1), turned(x, 1.1));
+    ++tested;
+    const double tolerance = 1e-3 * here;
+    near += std::abs(there - here) < tolerance && std::abs(around - here) < tolerance ? 1 : 0;
+  }
+  return tested > 20 && near > 0.95 * tested;
+}
+
+}  // namespace
+
+bool samples_break_a_symmetry(const ReportEvidence& evidence) {
+  constexpr int kSamples = 40'000;
+  constexpr std::size_t kRings = 8;
+  double statistic = 0;
+  for (const ViewEvidence& v : evidence.views) {
+    if (v.bsdf == nullptr || !has_wo(v)) continue;
+    if (std::hypot((*v.wo)[0], (*v.wo)[1]) < 0.05) continue;
+    Random random(kSeed, kStream + 1);
+    std::vector<Vec3> points;
+    for (int i = 0; i < kSamples; ++i) {
+      const auto s = v.pair->next(random);
+      if (s && s->mass == 0 && is_finite(s->x)) points.push_back(s->x);
+    }
+    if (points.size() < 1000) continue;
+    if (!is_symmetric(v, {points.begin(), points.begin() + 200})) return false;
+    // By height, in rings of equal counts: left against right in each.
+    std::sort(points.begin(), points.end(),
+              [](const Vec3& a, const Vec3& b) { return a[2] < b[2]; });
+    for (std::size_t k = 0; k < kRings; ++k) {
+      const std::size_t from = k * points.size() / kRings, to = (k + 1) * points.size() / kRings;
+      double left = 0;
+      for (std::size_t i = from; i < to; ++i) left += across(*v.wo, points[i]) > 0 ? 1 : 0;
+      const double n = static_cast<double>(to - from);
+      const double z = (left - n / 2) / std::sqrt(n / 4);
+      statistic = std::max(statistic, std::abs(z));
+    }
+  }
+  constexpr double kCertain = 6;
+  return statistic > kCertain;
+}
+
+bool map_jumps(const ViewEvidence& view) {
+  constexpr int kSteps = 4096;
+  if (view.pair->draw || !view.pair->sample) return false;
+  for (int d = 0; d < view.pair->numbers; ++d) {
+    std::vector<double> steps;
+    std::optional<SampleRecord> last;
+    for (int i = 0; i < kSteps; ++i) {
+      Uniforms u{0.37, 0.61, 0.43};
+      u[static_cast<std::size_t>(d)] = (i + 0.5) / kSteps;
+      auto s = view.pair->sample(u);
+      if (s && last && s->mass == 0 && last->mass == 0) {
+        steps.push_back(length(sum(s->x, scaled(last->x, -1))));
+      }
+      last = s;
+    }
+    if (steps.size() < kSteps / 4) continue;
+    std::vector<double> sorted = steps;
+    std::sort(sorted.begin(), sorted.end());
+    const double middle = sorted[sorted.size() / 2];
+    for (std::size_t i = steps.size() / 20; i + steps.size() / 20 < steps.size(); ++i) {
+      if (steps[i] > 100 * middle && steps[i] > 0.02) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace plumbline::verify

@@ -1,0 +1,271 @@
+#include "diagnosis/observations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "distributions.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+constexpr std::size_t kExactPerView = 400;
+constexpr std::size_t kFittedPerView = 96;
+// A point at a fold of the map may give a wrong difference with a small error.
+constexpr double kFoldShare = 0.003;
+constexpr double kFolds = 2;
+// The hypothesis itself is evaluated in double.
+constexpr double kOwnRounding = 1e-9;
+// An admissible hypothesis that is the truth is thrown away once in so many reports.
+constexpr double kLevel = 1e-4;
+
+// What rounding of points may do to a mass is not the business of a cause; and numbers that were
+// fitted to counts are known no better than these.
+constexpr double kMassTolerance = 1e-4;
+
+/// Bins below this count say little, and their normal approximation lies.
+constexpr double kFewest = 4;
+
+double log_residual(const ExactPoint& p, double predicted) {
+  return std::log(p.ratio) - std::log(predicted / p.place.base);
+}
+
+double error_of(const ExactPoint& p) { return p.error + kOwnRounding; }
+
+struct BinPrediction {
+  double expected = 0, error = 0;
+};
+
+/// Mean of the prediction over the nodes, in units of the bin's expected count. The nodes stand for
+/// the bin as strata do: their mean is better known than that of so many random points.
+BinPrediction predict(const CountedBin& bin, const Prediction& prediction,
+                      std::span<const double> parameters) {
+  double mean = 0, squares = 0;
+  for (std::size_t i = 0; i < bin.nodes.size(); ++i) {
+    if (!(bin.nodes[i].base > 0)) continue;
+    const double ratio = prediction(bin.nodes[i], parameters) / bin.nodes[i].base;
+    mean += bin.shares[i] * ratio;
+    squares += bin.shares[i] * ratio * ratio;
+  }
+  const double spread = std::sqrt(std::max(0.0, squares - mean * mean));
+  const double of_nodes =
+      spread < 1e-12 * std::abs(mean) ? 0 : spread / std::sqrt(double(bin.nodes.size()));
+  return {bin.expected * mean,
+          std::hypot(0.5 * bin.expected * of_nodes, bin.expected_error * mean)};
+}
+
+/// Standard normal under the prediction. @source Freeman, Tukey 1950: the roots of Poisson counts
+/// have about the same variance however small they are
+double pull(const CountedBin& bin, const BinPrediction& p) {
+  const double own = 2 * (std::sqrt(bin.observed + 0.375) - std::sqrt(p.expected + 0.375));
+  // Error of the expected count, as the root sees it.
+  const double other = p.error / std::sqrt(p.expected + 0.375);
+  return own / std::hypot(1.0, other);
+}
+
+bool usable(double ratio, double base) {
+  return ratio > 0 && std::isfinite(ratio) && base > 0 && std::isfinite(base);
+}
+
+void add_series(const ViewEvidence& view, const RatioSeries& series, int lobe,
+                ViewObservations& out) {
+  std::vector<const RatioAt*> points;
+  for (const RatioAt& p : series.points) {
+    if (p.lobe == lobe || lobe < 0) points.push_back(&p);
+  }
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kExactPerView);
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    const RatioAt& p = *points[i];
+    ExactPoint e;
+    e.place = {&view, view.wo.value_or(Vec3{}), p.x, 0};
+    switch (series.kind) {
+      case RatioKind::weight_over_value:
+        e.place.base = value_at(view, p.x);
+        break;
+      case RatioKind::lobe_density_over_pdf:
+        e.place.base = view.pair->lobes[static_cast<std::size_t>(p.lobe)].pdf(p.x);
+        break;
+      default:
+        e.place.base = pdf_at(view, p.x);
+    }
+    e.ratio = p.ratio;
+    e.error = p.error;
+    if (usable(e.ratio, e.place.base)) out.exact.push_back(e);
+  }
+}
+
+void add_bins(const ViewEvidence& view, ViewObservations& out) {
+  for (const BinSeen& seen : view.bins) {
+    if (seen.nodes.empty() || !(seen.expected > 0)) continue;
+    CountedBin bin;
+    bin.observed = seen.observed;
+    bin.expected = seen.expected;
+    bin.expected_error = seen.expected_error;
+    bin.shares = seen.shares;
+    for (const Vec3& x : seen.nodes) {
+      bin.nodes.push_back({&view, view.wo.value_or(Vec3{}), x, pdf_at(view, x)});
+    }
+    out.bins.push_back(std::move(bin));
+  }
+}
+
+/// Sum of squares of one view's pulls against its distribution, and the worst of them.
+class Pulls {
+ public:
+  void add(double z, double count) {
+    worst_ = std::max(worst_, std::abs(z));
+    if (count < kFewest) return;
+    // Nodes that miss what is in a bin leave a few wild pulls: capped, they count as themselves.
+    sum_ += z * z;
+    ++degrees_;
+  }
+  double worst() const { return worst_; }
+  bool agree(double level) const {
+    return degrees_ == 0 || chi_square_tail(sum_, degrees_) >= level;
+  }
+
+ private:
+  double sum_ = 0, degrees_ = 0, worst_ = 0;
+};
+
+}  // namespace
+
+Observations Observations::of_density(const ReportEvidence& evidence) {
+  Observations all;
+  for (const ViewEvidence& view : evidence.views) {
+    ViewObservations o;
+    o.view = &view;
+    for (const RatioSeries& s : view.ratios) {
+      if (s.kind == RatioKind::density_over_pdf) add_series(view, s, -1, o);
+    }
+    add_bins(view, o);
+    o.judge_mass = view.mass.has_value() && !view.bins.empty();
+    o.judge_strays = !view.strays.empty();
+    all.views_.push_back(std::move(o));
+  }
+  all.count();
+  return all;
+}
+
+Observations Observations::of_series(const ReportEvidence& evidence, RatioKind kind, int lobe) {
+  Observations all;
+  for (const ViewEvidence& view : evidence.views) {
+    ViewObservations o;
+    o.view = &view;
+    for (const RatioSeries& s : view.ratios) {
+      if (s.kind == kind) add_series(view, s, lobe, o);
+    }
+    all.views_.push_back(std::move(o));
+  }
+  all.count();
+  return all;
+}
+
+Observations Observations::without_strays() const {
+  Observations less = *this;
+  for (ViewObservations& v : less.views_) v.judge_strays = false;
+  return less;
+}
+
+Observations Observations::without_mass() const {
+  Observations less = *this;
+  for (ViewObservations& v : less.views_) v.judge_mass = false;
+  return less;
+}
+
+void Observations::count() {
+  exact_ = bins_ = 0;
+  for (const ViewObservations& v : views_) {
+    exact_ += v.exact.size();
+    bins_ += v.bins.size();
+  }
+}
+
+Fit Observations::judge(const Prediction& prediction, std::span<const double> parameters) const {
+  return judge(prediction, [parameters](std::size_t) { return parameters; });
+}
+
+Fit Observations::judge(
+    const Prediction& prediction,
+    const std::function<std::span<const double>(std::size_t view)>& parameters) const {
+  Fit fit;
+  // Twice the level's quantile for exact points is too strict a word for a bound: theirs are not
+  // normal, and four times an error of differences is what the Jacobian check itself allows.
+  constexpr double kExactPull = 4;
+  const double residuals = std::max(1.0, static_cast<double>(bins_));
+  const double allowed = normal_quantile(kLevel / 2 / residuals);
+  const double views = std::max<double>(1, static_cast<double>(views_.size()));
+  double outliers = 0;
+  const double most = exact_ < 100 ? 0 : std::max(kFolds, kFoldShare * double(exact_));
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    const ViewObservations& o = views_[v];
+    const auto numbers = parameters(v);
+    for (const ExactPoint& p : o.exact) {
+      const double z = std::abs(log_residual(p, prediction(p.place, numbers))) / error_of(p);
+      ++fit.tested;
+      if (!(z <= kExactPull)) {
+        if (++outliers > most) return fit;
+      } else {
+        fit.worst = std::max(fit.worst, z / kExactPull);
+      }
+    }
+    if (o.judge_strays) {
+      double explained = 0;
+      for (const Vec3& x : o.view->strays) {
+        explained += prediction({o.view, o.view->wo.value_or(Vec3{}), x, 0}, numbers) > 0 ? 1 : 0;
+      }
+      if (explained < 0.98 * static_cast<double>(o.view->strays.size())) return fit;
+    }
+    Pulls pulls;
+    double n = o.view->samples, total = 0, variance = 0;
+    for (const CountedBin& bin : o.bins) {
+      const BinPrediction p = predict(bin, prediction, numbers);
+      const double z = pull(bin, p);
+      ++fit.tested;
+      if (!(std::abs(z) <= allowed)) return fit;
+      pulls.add(z, p.expected);
+      total += p.expected / n;
+      variance += std::pow(std::max(0.0, p.error) / n, 2);
+    }
+    if (!pulls.agree(kLevel / views)) return fit;
+    fit.worst = std::max(fit.worst, pulls.worst() / allowed);
+    if (o.judge_mass) {
+      const MassSeen& mass = *o.view->mass;
+      const double missing = total + mass.atoms + mass.rejected + o.view->stray_share - 1;
+      const double error = mass.integral_error * total / std::max(mass.integral, 1e-300) +
+                           mass.rejected_error + 4 * std::sqrt(variance) +
+                           4 * std::sqrt(o.view->stray_share / n) + kMassTolerance +
+                           (numbers.empty() ? 0 : 4 / std::sqrt(n));
+      if (!(std::abs(missing) <= error)) return fit;
+    }
+  }
+  fit.admissible = fit.tested > 0;
+  return fit;
+}
+
+std::vector<double> Observations::residuals(const Prediction& prediction,
+                                            std::span<const double> parameters, int view,
+                                            bool flatten) const {
+  constexpr double kFlat = 0.01;
+  std::vector<double> out;
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    if (view >= 0 && v != static_cast<std::size_t>(view)) continue;
+    const ViewObservations& o = views_[v];
+    const std::size_t step = 2 * std::max<std::size_t>(1, o.exact.size() / (2 * kFittedPerView));
+    for (std::size_t i = 0; i < o.exact.size(); i += step) {
+      const double r = log_residual(o.exact[i], prediction(o.exact[i].place, parameters));
+      out.push_back(r / (flatten ? std::max(kFlat, error_of(o.exact[i])) : error_of(o.exact[i])));
+    }
+    const std::size_t bin_step = 2 * std::max<std::size_t>(1, o.bins.size() / (2 * kFittedPerView));
+    for (std::size_t i = 0; i < o.bins.size(); i += bin_step) {
+      out.push_back(pull(o.bins[i], predict(o.bins[i], prediction, parameters)));
+    }
+  }
+  for (double& r : out) {
+    if (!std::isfinite(r)) r = 1e6;
+  }
+  return out;
+}
+
+}  // namespace plumbline::verify

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "diagnosis/ask.h"
+#include "diagnosis/evidence.h"
+
+namespace plumbline::verify {
+
+/// Of a hypothesis: what stands over the base of a place (the true density, the record's pdf,
+/// weight · pdf()), given its free numbers.
+using Prediction = std::function<double(const Place&, std::span<const double>)>;
+
+/// A ratio that is known up to rounding or differences.
+struct ExactPoint {
+  Place place;
+  double ratio = 1, error = 0;
+};
+
+/// A bin that samples were counted in.
+struct CountedBin {
+  std::vector<Place> nodes;
+  std::vector<double> shares;
+  double observed = 0, expected = 0, expected_error = 0;
+};
+
+/// How well a prediction does: the largest residual in units of what is allowed for it.
+struct Fit {
+  bool admissible = false;
+  double worst = 0;
+  std::size_t tested = 0;
+};
+
+/// All that one quantity was seen to be, in one view.
+struct ViewObservations {
+  const ViewEvidence* view = nullptr;
+  std::vector<ExactPoint> exact;
+  std::vector<CountedBin> bins;
+  bool judge_mass = false;  ///< ∫prediction + atoms + rejected = 1
+  bool judge_strays = false;
+};
+
+/// All that one quantity was seen to be in a whole report.
+class Observations {
+ public:
+  /// 1/|∂x/∂u|, counts, mass and samples where the pdf is 0, all of them over pdf().
+  static Observations of_density(const ReportEvidence& evidence);
+
+  /// One of the series of points alone.
+  static Observations of_series(const ReportEvidence& evidence, RatioKind kind, int lobe = -1);
+
+  /// The same where samples fall where the pdf is positive; and without the balance of mass.
+  Observations without_strays() const;
+  Observations without_mass() const;
+
+  const std::vector<ViewObservations>& views() const { return views_; }
+  bool empty() const { return exact_ + bins_ == 0; }
+  std::size_t exact() const { return exact_; }
+  std::size_t bins() const { return bins_; }
+
+  /// Whether every residual lies within its own error, at a level that accounts for their number.
+  ///
+  /// @param parameters  those of the view that is asked about
+  Fit judge(const Prediction& prediction,
+            const std::function<std::span<const double>(std::size_t view)>& parameters) const;
+  Fit judge(const Prediction& prediction, std::span<const double> parameters = {}) const;
+
+  /// Residuals in units of their errors, of every other point: what free numbers are fitted on.
+  ///
+  /// @param view     one view, or −1: all of them
+  /// @param flatten  all exact ratios as if known to a percent, for the first steps of a fit
+  std::vector<double> residuals(const Prediction& prediction, std::span<const double> parameters,
+                                int view, bool flatten) const;
+
+ private:
+  void count();
+
+  std::vector<ViewObservations> views_;
+  std::size_t exact_ = 0, bins_ = 0;
+};
+
+}  // namespace plumbline::verify

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include <plumbline/verify/pair.h>
+
+namespace plumbline::verify {
+
+/// A map from uniform numbers to points, without its weights.
+using Map = std::function<std::optional<SampleRecord>(const Uniforms&)>;
+
+/// A density at a point, with its relative error.
+struct DensityAt {
+  double value = 0;
+  double relative_error = 0;
+};
+
+/// Density with which a map spreads uniform numbers around u: 1/|∂x/∂u| by extrapolated
+/// differences. nullopt where the map rejects or has atoms nearby, or is flat.
+///
+/// @param dimension   of the domain, 1 or 2
+/// @param epsilon     rounding unit of the map
+/// @param first_step  longest difference in u; a short one sees a seam only where it is very near
+/// @source Ridders 1982 (Adv. Eng. Software 4:2)
+std::optional<DensityAt> density_by_differences(const Map& map, const Uniforms& u, int dimension,
+                                                double epsilon, double first_step = 0x1p-4);
+
+}  // namespace plumbline::verify
