@@ -198,7 +198,8 @@ struct Tent {
   T sample(T u) const {
     const bool left = u < T(0.5);
     const T x = left ? 2 * u : 2 * (u - T(0.5));
-    return left ? r * (std::sqrt(x) - 1) : r * (1 - std::sqrt(fault == 3 ? x : 1 - x));
+    if (fault == 3 && !left) return r * std::sqrt(x);
+    return left ? r * (std::sqrt(x) - 1) : r * (1 - std::sqrt(1 - x));
   }
   T pdf(T x) const {
     if (!(std::abs(x) <= r)) return 0;

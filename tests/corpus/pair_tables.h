@@ -112,7 +112,9 @@ struct SmoothMap {
   T pdf(const Xyz<T>& w) const {
     const T sine = std::sqrt(w.x * w.x + w.y * w.y);
     if (!(sine > 0)) return 0;
-    const T density = table->pdf(to_latitude(w)) / (2 * kPi<T> * kPi<T>);
+    Xy<T> p = to_latitude(w);
+    p.y = std::atan2(sine, w.z) / kPi<T>;  // acos is 0 within 3e-4 of the pole in float
+    const T density = table->pdf(p) / (2 * kPi<T> * kPi<T>);
     return fault == 1 ? density : fault == 2 ? density * sine : density / sine;
   }
 };
@@ -133,13 +135,12 @@ struct MeasuredLobe {
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
   }
   T pdf(const Xyz<T>& w) const {
-    if (!(w.z >= 0)) return 0;
     const T sine = std::sqrt(w.x * w.x + w.y * w.y);
+    if (!(w.z >= 0 && sine > 0)) return 0;
     const T theta = std::atan2(sine, w.z), turn = std::atan2(w.y, w.x) / (2 * kPi<T>);
     const T x = std::min(std::sqrt(2 * theta / kPi<T>), T(1));
     const T density = table.pdf({x, turn < 0 ? turn + 1 : turn});
-    const T around = std::max(2 * kPi<T> * kPi<T> * (fault == 1 ? T(1) : x), T(1e-6));
-    return density / (around * (fault == 2 ? T(1) : std::max(sine, T(1e-6))));
+    return density / (2 * kPi<T> * kPi<T> * (fault == 1 ? T(1) : x) * (fault == 2 ? T(1) : sine));
   }
 };
 
