@@ -161,8 +161,9 @@ struct Retroreflector {
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     const T cosine = dot(wo, wi);
     if (!(wo.z > 0) || !(wi.z > 0) || cosine <= 0) return 0;
-    return albedo * (exponent + 1) / (2 * kPi<T>)*std::pow(cosine, exponent) / std::max(wo.z, wi.z);
+    return albedo * lobe(cosine) / std::max(wo.z, wi.z);
   }
+  T lobe(T cosine) const { return (exponent + 1) / (2 * kPi<T>)*std::pow(cosine, exponent); }
 };
 
 /// Dusty ground after Lommel and Seeliger. It draws from the caller's generator.

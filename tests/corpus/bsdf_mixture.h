@@ -184,8 +184,12 @@ struct Blend {
     return Sampled<T>{s->wi, q > 0 ? eval(wo, s->wi) * std::abs(s->wi.z) / q : T(0), q};
   }
   template <class C>
-  static std::optional<Sampled<T>> take(const C& bsdf, const V3<T>& wo, const P3<T>& u) {
-    if constexpr (requires { bsdf.sample(wo, u.y, u.z); }) {
+  std::optional<Sampled<T>> take(const C& bsdf, const V3<T>& wo, const P3<T>& u) const {
+    if constexpr (requires { bsdf.sample(wo, u); }) {
+      // A blend itself: it stretches what is left of the number that chose it.
+      const T p = u.x < weight ? weight : 1 - weight;
+      return bsdf.sample(wo, P3<T>{below_one((u.x < weight ? u.x : u.x - weight) / p), u.y, u.z});
+    } else if constexpr (requires { bsdf.sample(wo, u.y, u.z); }) {
       return bsdf.sample(wo, u.y, u.z);
     } else {
       return bsdf.sample(wo, P2<T>{u.y, u.z});
