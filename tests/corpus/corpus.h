@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <plumbline/verify/bsdf.h>
+#include <plumbline/verify/detail/cause.h>
+
+/// Sampling code as production renderers write it, correct and with one fault put in. It is what
+/// the library is held to: silence about the correct, the right cause for the others.
+namespace plumbline::tests::corpus {
+
+/// What a battery returns.
+using Results = std::vector<verify::CheckResult>;
+
+/// One subject with its parameters, correct or with one fault put in.
+struct Case {
+  /// "rough glass/alpha 0.2/float"; of a twin "rough glass/alpha 0.2/pdf without 1/(4 wo·h)"
+  std::string name;
+
+  /// Empty: correct. Else what was done, in words, with the id of the shared list of real bugs
+  /// where it is one of them: "B3".
+  std::string fault;
+
+  /// Of a fault: the kinds that a diagnosis is right to name. The first is the one that a person
+  /// would; others are here only where they say the same of this code.
+  std::vector<verify::CauseKind> causes;
+
+  /// The battery, as a user would call it.
+  std::function<Results(std::uint64_t seed)> run;
+};
+
+std::vector<Case> bsdf_cases();
+std::vector<Case> pair_cases();  ///< lights, maps, warps, discrete, distances, phase functions
+
+/// Faulty twins that whoever writes the diagnosis has not seen; empty where the build has none.
+std::vector<Case> sealed_bsdf_cases();
+std::vector<Case> sealed_pair_cases();
+
+}  // namespace plumbline::tests::corpus
