@@ -108,6 +108,94 @@ TEST(Convention, ZeroPdfIsFailure) {
   expect_needed(ZeroPdf{}, c);
 }
 
+/// Records of a direction only, from all around: below the surface, pdf() is 0.
+struct Direction {
+  V wi;
+};
+struct PdfAskedForAfterwards : Lambert {
+  Direction sample(const V&, double u, double v) const {
+    const double z = 1 - 2 * u, radius = std::sqrt(1 - z * z), phi = 2 * pi * v;
+    return {{radius * std::cos(phi), radius * std::sin(phi), z}};
+  }
+  double pdf(const V& wo, const V& wi) const { return wo.z > 0 && wi.z > 0 ? 1 / (4 * pi) : 0; }
+};
+
+TEST(Convention, ZeroPdfIsFailureAlsoWherePdfHasToBeAsked) {
+  BsdfConventions c;
+  c.zero_pdf_is_failure = true;
+  expect_needed(PdfAskedForAfterwards{}, c);
+}
+
+/// The same, with a weight and the pdf in the record.
+struct BelowWithPdfZero : PdfAskedForAfterwards {
+  Record sample(const V& wo, double u, double v) const {
+    const V wi = PdfAskedForAfterwards::sample(wo, u, v).wi;
+    const double p = pdf(wo, wi);
+    return {wi, p, p > 0 ? eval(wo, wi) * wi.z / p : 0};
+  }
+};
+
+TEST(Convention, SamplesBelowTheSurfaceWithPdfZero) {
+  BsdfConventions c;
+  c.zero_pdf_is_failure = true;
+  expect_needed(BelowWithPdfZero{}, c);
+}
+
+/// f·|cosθ| in a record that does not say its pdf.
+struct ValueWithoutPdf : Lambert {
+  struct Value {
+    V wi;
+    double value;
+  };
+  double factor = 1;
+
+  std::optional<Value> sample(const V& wo, double u, double v) const {
+    const auto record = Lambert::sample(wo, u, v);
+    if (!record) return std::nullopt;
+    return Value{record->wi, factor * kAlbedo / pi * record->wi.z};
+  }
+};
+
+TEST(Convention, ValueInARecordThatStatesNoPdf) {
+  BsdfConventions c;
+  c.weight = BsdfConventions::Weight::f_cosine;
+  expect_needed(ValueWithoutPdf{}, c);
+  EXPECT_FALSE(passes(ValueWithoutPdf{{}, 1.01}, c));
+}
+
+/// A pdf that is stated as NaN is stated, and wrong.
+struct StatesNan : Lambert {
+  std::optional<Record> sample(const V& wo, double u, double v) const {
+    auto record = Lambert::sample(wo, u, v);
+    if (record && v < 0.01) record->pdf = std::nan("");
+    return record;
+  }
+};
+
+TEST(Convention, ANanInTheRecordIsNotSilence) { EXPECT_FALSE(passes(StatesNan{})); }
+
+/// Leaves it to its caller to see that wo is above the surface.
+struct OneSided : Lambert {
+  std::optional<Record> sample(const V&, double u, double v) const {
+    return Lambert::sample({0, 0, 1}, u, v);
+  }
+  double pdf(const V&, const V& wi) const { return Lambert::pdf({0, 0, 1}, wi); }
+  double eval(const V&, const V& wi) const { return Lambert::eval({0, 0, 1}, wi); }
+};
+
+TEST(Convention, OnlyTheFrontIsMeant) {
+  const auto all_pass = [](bool back) {
+    verify::BsdfOptions o = quick();
+    o.back = back;
+    for (const verify::CheckResult& r : verify::check_bsdf("one-sided", OneSided{}, o)) {
+      if (!r.as_expected()) return false;
+    }
+    return true;
+  };
+  EXPECT_TRUE(all_pass(false));
+  EXPECT_FALSE(all_pass(true));
+}
+
 struct ProjectedPdf : Lambert {
   std::optional<Record> sample(const V& wo, double u, double v) const {
     auto record = Lambert::sample(wo, u, v);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "lambert.h"
@@ -30,6 +31,40 @@ struct VectorOfTwo : Lambert {
 struct VectorOfThree : Lambert {
   auto sample(const V& wo, const V& u) const { return Lambert::sample(wo, u.x, u.y); }
 };
+
+/// Two components by name and by index, as of glm.
+struct NamedAndIndexed {
+  double x, y;
+  double& operator[](int i) { return at(i), i == 0 ? x : y; }
+  double operator[](int i) const { return at(i), i == 0 ? x : y; }
+  static void at(int i) {
+    if (i > 1) throw std::out_of_range("two components");
+  }
+};
+
+struct VectorOfTwoByIndex : Lambert {
+  auto sample(const V& wo, const NamedAndIndexed& u) const { return Lambert::sample(wo, u.x, u.y); }
+};
+
+struct ArrayOfTwo : Lambert {
+  auto sample(const V& wo, const std::array<double, 2>& u) const {
+    return Lambert::sample(wo, u[0], u[1]);
+  }
+};
+
+struct ArrayOfThree : Lambert {
+  auto sample(const V& wo, const std::array<double, 3>& u) const noexcept {
+    return u[2] < 0.5 ? Lambert::sample(wo, u[0], u[1]) : Lambert::sample(wo, 1 - u[0], u[1]);
+  }
+};
+
+TEST(Numbers, AVectorOfTwoHasNoThird) {
+  EXPECT_TRUE(passes(VectorOfTwoByIndex{}));
+  EXPECT_TRUE(passes(ArrayOfTwo{}));
+  EXPECT_TRUE(passes(ArrayOfThree{}));
+  EXPECT_EQ(verify::erase_bsdf(ArrayOfTwo{}).numbers, 2);
+  EXPECT_EQ(verify::erase_bsdf(ArrayOfThree{}).numbers, 3);
+}
 
 TEST(Numbers, TwoThreeOrAVector) {
   EXPECT_TRUE(passes(ThreeNumbers{}));

@@ -8,6 +8,7 @@
 #include <plumbline/verify/detail/vector_access.h>
 
 #include "streams.h"
+#include "vec3.h"
 
 /// When two numbers that should be one are equal: up to a stated tolerance, and beyond it as far as
 /// the formula magnifies the rounding of what it is given.
@@ -24,44 +25,78 @@ inline double smallest_with_digits(double epsilon) {
   return epsilon > 0x1p-40 ? 0x1p-126 / 0x1p-24 : 0x1p-1022 / 0x1p-53;
 }
 
-constexpr std::size_t kNeighbours = 32;
-constexpr double kMostUlps = 8;
-/// Roundings inside a formula that one of its arguments stands for.
-constexpr double kRoundingsPerUlp = 16;
+/// What the points are that a function is asked at.
+enum class Coordinates {
+  directions,  ///< unit vectors: components come out of sums with larger ones
+  independent  ///< each has its own magnitude
+};
 
-/// x with each component moved by up to 8 ulps at random: of itself, or of `least` where that is
-/// more (1 for unit vectors, whose components come out of sums with larger ones; 0 for independent
-/// coordinates).
-inline Vec3 moved_by_ulps(const Vec3& x, double epsilon, double least, Random& random) {
-  Vec3 moved;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double ulps = kMostUlps * (2 * random.uniform() - 1);
-    moved[i] = x[i] + 2 * epsilon * ulps * std::max(std::abs(x[i]), x[i] == 0 ? 0 : least);
+inline constexpr std::size_t kNeighbours = 32;
+
+/// Moves of points by random shares of a distance.
+class Moves {
+ public:
+  explicit Moves(Coordinates coordinates) : coordinates_(coordinates) {}
+
+  template <std::size_t N>
+  std::array<Vec3, N> draw(const std::array<Vec3, N>& x, double distance) {
+    std::array<Vec3, N> moves{};
+    for (std::size_t p = 0; p < N; ++p) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double unit = coordinates_ == Coordinates::directions ? 1 : std::abs(x[p][i]);
+        moves[p][i] = distance * (2 * random_.uniform() - 1) * unit;
+      }
+    }
+    return moves;
   }
-  return moved;
+
+ private:
+  Coordinates coordinates_;
+  // The same moves everywhere: a check must not depend on how often it has asked before.
+  Random random_ = random_for(0, Stream::neighbours);
+};
+
+template <std::size_t N>
+std::array<Vec3, N> moved(const std::array<Vec3, N>& x, const std::array<Vec3, N>& by,
+                          double times) {
+  std::array<Vec3, N> y;
+  for (std::size_t p = 0; p < N; ++p) y[p] = sum(x[p], scaled(by[p], times));
+  return y;
 }
 
-/// What rounding does to f at the points x: its largest change over neighbours, all points moved at
-/// once. Shows how steep f is in each component, and, because each neighbour rounds in another way,
-/// what f loses by its own cancellation. Neighbours where f is not finite show nothing.
+/// What rounding does to f at the points x, all of which are moved at once:
+///
+/// - its largest change over neighbours within 8 ulps: how steep f is in each component, and what
+///   it loses by cancellation wherever a neighbour rounds in another way;
+/// - its largest second difference over √(8ε), the angle whose cosine is 1 − 4ε: what a formula
+///   loses that knows an angle by its cosine only, like 1 + (α² − 1)·cos² at its peak, where every
+///   neighbour within ulps rounds in the same way. It is ε·f'', and so next to nothing where f is
+///   smooth on a scale of more than √ε.
+///
+/// Neighbours where f is not finite show nothing.
 ///
 /// @param f  of the same number of points
 template <std::size_t N, class F>
-double spread_by_rounding(const std::array<Vec3, N>& x, double epsilon, double least, const F& f) {
-  // The same moves everywhere: a check must not depend on how often it has asked before.
-  Random random = random_for(0, Stream::neighbours);
+double spread_by_rounding(const std::array<Vec3, N>& x, double epsilon, Coordinates coordinates,
+                          const F& f) {
+  Moves moves(coordinates);
   const double here = f(x);
   double spread = 0;
+  const auto see = [&spread](double change) {
+    if (std::isfinite(change)) spread = std::max(spread, std::abs(change));
+  };
   for (std::size_t k = 0; k < kNeighbours; ++k) {
-    std::array<Vec3, N> moved;
-    for (std::size_t i = 0; i < N; ++i) moved[i] = moved_by_ulps(x[i], epsilon, least, random);
-    const double change = std::abs(f(moved) - here);
-    if (std::isfinite(change)) spread = std::max(spread, change);
+    see(f(moved(x, moves.draw(x, 16 * epsilon), 1)) - here);
+    const auto by = moves.draw(x, std::sqrt(8 * epsilon));
+    see(f(moved(x, by, 1)) + f(moved(x, by, -1)) - 2 * here);
   }
   return spread;
 }
 
 /// Whether a and b are equal up to the stated tolerance, or up to what rounding does to them.
+///
+/// Of 1e6 pairs of directions on rough mirrors and glasses (α = 1e-4 to 1, textbook D and a stable
+/// one, float and double), none had f both ways more than 0.08 of the sum of both spreads apart.
 ///
 /// @param spread  () to the sum of `spread_by_rounding` of both; asked only where it matters
 template <class Spread>
@@ -70,7 +105,7 @@ bool equal_up_to_rounding(double a, double b, double epsilon, const Spread& spre
   const double allowed = stated_tolerance(epsilon) * std::max(std::abs(a), std::abs(b));
   if (difference <= allowed) return true;
   if (!std::isfinite(difference)) return false;
-  return difference <= allowed + kRoundingsPerUlp * spread();
+  return difference <= allowed + spread();
 }
 
 }  // namespace plumbline::verify

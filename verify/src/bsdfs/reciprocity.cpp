@@ -132,7 +132,7 @@ class Reciprocity {
   /// What rounding does to f in both directions.
   double spread(const BothWays& p, std::size_t c) const {
     const auto of = [&](bool reversed) {
-      return spread_by_rounding(std::array{p.wo, p.wi}, bsdf_.epsilon, 1.0,
+      return spread_by_rounding(std::array{p.wo, p.wi}, bsdf_.epsilon, Coordinates::directions,
                                 [&](const std::array<Vec3, 2>& w) {
                                   return reversed ? there(w[1], w[0], c) : there(w[0], w[1], c);
                                 });
