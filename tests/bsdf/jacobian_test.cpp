@@ -162,9 +162,10 @@ verify::CheckResult result_of(const std::string& subject, const Worst& worst) {
   if (result.verdict == verify::Verdict::pass && worst.points < kFewestPoints) {
     result.verdict = verify::Verdict::inconclusive;
     result.reason = "only " + std::to_string(worst.points) + " points have a density";
-  } else if (result.verdict == verify::Verdict::pass && 50 * worst.ill_conditioned > worst.points) {
+  } else if (result.verdict == verify::Verdict::pass &&
+             200 * worst.ill_conditioned > worst.points) {
     result.verdict = verify::Verdict::inconclusive;
-    result.reason = "double cannot tell at more than one point in 50";
+    result.reason = "double cannot tell at more than one point in 200";
   }
   return result;
 }
