@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <system_error>
 #include <vector>
 
@@ -93,7 +94,8 @@ bool is_machine_failure(const std::error_code& code) {
 
 }  // namespace
 
-int run_report(const std::filesystem::path& results_dir, const std::filesystem::path& output) {
+int run_report(const std::filesystem::path& results_dir, const std::filesystem::path& output,
+               std::uint64_t max_checks) {
   try {
     reports::PageInput input;
     input.results = reports::read_results(results_dir);
@@ -102,6 +104,13 @@ int run_report(const std::filesystem::path& results_dir, const std::filesystem::
     const reports::Summary summary = reports::summarise(input.results);
     print_summary(input.results, summary);
     fmt::print("page: {}\n", output.string());
+    if (summary.checks() > max_checks) {
+      fmt::print(stderr,
+                 "plumbline: {} checks, but the error budget is split over {}: the chance of a "
+                 "false alarm is not what it claims to be\n",
+                 summary.checks(), max_checks);
+      return 1;
+    }
     return summary.unexpected == 0 && summary.unreadable == 0 ? 0 : 1;
   } catch (const reports::ResultsError& error) {
     throw renderer::InputError(error.what());

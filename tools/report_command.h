@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+
+#include <plumbline/verify/detail/budget.h>
 
 namespace plumbline::tools {
 
@@ -11,9 +14,13 @@ namespace plumbline::tools {
 ///
 /// @param results_dir  searched for records, subdirectories included (reports::read_results)
 /// @param output       the HTML file; replaced only by a whole new page
-/// @return             0; 1 where a check did not give its expected verdict, or a record was lost
+/// @param max_checks   bound on the number of checks that the error budget is split over
+/// @return             0; 1 where a check did not give its expected verdict, a record was lost, or
+///                     there are more checks than max_checks, so that their levels add up to more
+///                     than the budget
 /// @throws InputError for a directory that holds no results, and an output that cannot be written;
 ///         MachineError where the disk is full
-int run_report(const std::filesystem::path& results_dir, const std::filesystem::path& output);
+int run_report(const std::filesystem::path& results_dir, const std::filesystem::path& output,
+               std::uint64_t max_checks = verify::ErrorBudget{}.max_checks);
 
 }  // namespace plumbline::tools

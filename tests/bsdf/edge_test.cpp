@@ -56,6 +56,41 @@ TYPED_TEST(Edge, NothingIsNonFiniteAndAtomsReportNoDensity) {
   }
 }
 
+TYPED_TEST(Edge, SampledDirectionsAreOfUnitLengthWhereTheVisibleNormalCancels) {
+  // At the limb of the visible normals, u.y → 1, the normal is the difference of two vectors that
+  // are opposite where wo lies along an axis and u.x is 0 or ½: what rounding leaves of it points
+  // anywhere, and is reflected and refracted at all the same.
+  constexpr double kRoundings = 64;
+  const auto check = [&]<class T>(const Example& example, double epsilon, T /*scalar*/) {
+    for (const double degrees : {60.0, 80.0, 89.9}) {
+      for (const double azimuth : {0.0, 1e-16, -1e-12, 1e-8, std::acos(-1.0), std::acos(0.0)}) {
+        for (const double side : {1.0, -1.0}) {
+          const double theta = degrees * std::acos(-1.0) / 180;
+          const Vec3<T> wo{T(std::sin(theta) * std::cos(azimuth)),
+                           T(std::sin(theta) * std::sin(azimuth)), T(side * std::cos(theta))};
+          for (std::uint32_t lobe = 0; lobe < example.bsdf.lobe_count(); ++lobe) {
+            for (const double x : {0.0, 0.25, 0.5, 1 - 2 * epsilon}) {
+              for (const double ulps : {1.0, 2.0, 3.0, 8.0}) {
+                const Vec2<T> u{T(x), T(1 - 2 * ulps * epsilon)};
+                const auto s = example.bsdf.sample_lobe(wo, lobe, u);
+                if (!s) continue;
+                const double length_of_wi = length(vec_cast<double>(s->wi));
+                EXPECT_NEAR(length_of_wi, 1, kRoundings * epsilon)
+                    << example.name << ", " << degrees << "°, azimuth " << azimuth << ", side "
+                    << side << ", lobe " << lobe << ", u " << x << ", " << ulps;
+              }
+            }
+          }
+        }
+      }
+    }
+  };
+  for (const Example& example : examples_of<TypeParam>()) {
+    check(example, 0x1p-53, double{});
+    check(example, 0x1p-24, float{});
+  }
+}
+
 TYPED_TEST(Edge, WhatIsAllAtomsHasNoDensityAnywhere) {
   verify::Random random(1);
   for (const Example& example : examples_of<TypeParam>()) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
 
 #include <plumbline/renderer/light/sphere_light.h>
 
@@ -35,6 +36,34 @@ TEST(SphereLight, SolidAngleInFloatIsThatOfQuadToSixDigits) {
         EXPECT_EQ(sample->pdf_w, pdf_w);
       }
     }
+  }
+}
+
+TEST(SphereLight, AtTheLimbOfAnInwardOneTheRecordIsTheDensityOfTheDirectionSampled) {
+  // From a distance of 3 of the centre of a sphere of radius 2, cosθ at the light is 0 for
+  // n_z = 1 − 2 u.x = 2/3.
+  const SphereLight light{{0, 0, 0}, 2, true, {1, 1, 1}};
+  const Vec3f ref{0, 0, 3};
+  int seen = 0;
+  for (int i = -10; i <= 2000; ++i) {
+    for (const float azimuth : {0.0f, 0.13f, 0.4f, 0.77f}) {
+      const auto s = light.sample(ref, Vec2f{1.0f / 6 + static_cast<float>(i) * 0x1p-20f, azimuth});
+      if (!s) continue;
+      ++seen;
+      EXPECT_EQ(s->pdf_w, light.pdf(ref, s->wi));
+      EXPECT_GT(s->pdf_w, 0);
+    }
+  }
+  EXPECT_GT(seen, 1000);
+}
+
+TEST(SphereLight, OnAnInwardOneTheDensityKeepsItsDigitsAtGrazingAngles) {
+  // From a point on the sphere pdf = d²/(cosθ A) with d = 2 R cosθ: 4 R² cosθ/(4π R²) = cosθ/π. The
+  // point (0, 0, 1) is exact, and so is its distance from the centre.
+  const SphereLight light{{0, 0, 0}, 1, true, {1, 1, 1}};
+  for (float cosine = 1; cosine > 1e-6f; cosine *= 0.71f) {
+    const Vec3f wi{std::sqrt((1 - cosine) * (1 + cosine)), 0, -cosine};
+    EXPECT_NEAR(light.pdf(Vec3f{0, 0, 1}, wi) * renderer::pi<float>() / cosine, 1, 1e-6f) << cosine;
   }
 }
 

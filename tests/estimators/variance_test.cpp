@@ -37,7 +37,8 @@ Target of_square(const EstimatorCase& c) {
 /// Samples after which a correct estimator has certainly proven the tolerance: enough for the
 /// bound, and four times what brings the skewness of the estimate down to the guard's 0.05.
 double needed(const Target& target, double tolerance) {
-  return std::max(73 * target.cv2() / (tolerance * tolerance),
+  const double cv = std::sqrt(std::max(0.0, target.cv2()));
+  return std::max(static_cast<double>(verify::samples_to_decide(tolerance, cv)),
                   4 * std::pow(target.skewness() / 0.05, 2));
 }
 

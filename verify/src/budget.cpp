@@ -39,7 +39,7 @@ std::uint64_t samples_to_decide(double relative_tolerance, double cv) {
     throw std::invalid_argument("samples_to_decide: needs a positive tolerance and cv >= 0");
   }
   const double ratio = cv / relative_tolerance;
-  return static_cast<std::uint64_t>(std::clamp(std::ceil(73 * ratio * ratio), 1.0, 0x1p62));
+  return static_cast<std::uint64_t>(std::clamp(std::ceil(95 * ratio * ratio), 1.0, 0x1p62));
 }
 
 }  // namespace plumbline::verify

@@ -164,7 +164,15 @@ struct GgxDielectric {
     const W gap = (eta - W(1)) * (eta + W(1));
     const T g = safe_sqrt(static_cast<T>(gap + cos2));
     const T shrink = static_cast<T>(W(1) / eta);
-    const Vec3<T> wi = (visible.normal * T((cosine - g) * inverse_length) - up) * shrink;
+    // |wi| is 1 only where that cosine is the scalar product of wo with this very normal, which may
+    // be all rounding error: what two opposite vectors left. From outside the cosine so far is not,
+    // though it has the digits that Fresnel's formulas need.
+    T along = cosine, depth = g;
+    if (!has_critical_angle(wo)) {
+      along = dot(up, visible.normal) * inverse_length;
+      depth = safe_sqrt(static_cast<T>(gap + sqr(static_cast<W>(along))));
+    }
+    const Vec3<T> wi = (visible.normal * T((along - depth) * inverse_length) - up) * shrink;
     if (!(g > T(0) && wi.z < T(0))) return std::nullopt;
     const auto transmitted = film.template split<T>(cos2, wo.z > T(0)).transmitted;
     // The Jacobian as in half_vector, with |wo + η wi| = |cos − g| = |η² − 1|/(cos + g).

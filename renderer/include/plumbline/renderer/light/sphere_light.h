@@ -110,16 +110,29 @@ struct SphereLight {
   std::optional<LightSample<T>> sample_from_inside(const Vec3<T>& ref, const Vec2<T>& u) const {
     const Vec3<T> n = square_to_uniform_sphere(u);
     const Vec3<T> point = vec_cast<T>(center) + n * T(radius);
-    return from_area_sample(point - ref, -n, T(T(1) / area<T>()), rgb_cast<T>(radiance));
+    auto s = from_area_sample(point - ref, -n, T(T(1) / area<T>()), rgb_cast<T>(radiance));
+    if (!s) return std::nullopt;
+    // From outside the density grows like 1/cosθ towards the limb, and of a direction that is ε off
+    // the cosine's square is off by about ε. There the rounded wi decides, not the point it came
+    // from: whoever meets wi by another technique knows no more, and both have to weigh it alike.
+    s->pdf_w = pdf_from_inside(ref, s->wi);
+    if (!(s->pdf_w > T(0))) return std::nullopt;
+    return s;
   }
 
+  // The far root of |m + t wi|² = R² is −m·wi + half chord. The half chord is the root of
+  // R² − |m|² + (m·wi)², a sum of squares from inside; R² − |m|² sin² would cancel at grazing angles
+  // of a point on the sphere. Where wi leaves the centre behind, the root is the quotient of
+  // R² − |m|² and the sum.
   template <class T>
   T pdf_from_inside(const Vec3<T>& ref, const Vec3<T>& wi) const {
-    // The far root of |m + t wi|² = R² is −m·wi + half chord; the half chord is √(R² − |m|² sin²).
     const Vec3<T> m = ref - vec_cast<T>(center);
-    const T half_chord = safe_sqrt(T(sqr(T(radius)) - length_squared(cross(m, wi))));
-    const T distance = half_chord - dot(m, wi);
-    if (!(half_chord > T(0) && distance > T(0))) return T(0);
+    const T away = dot(m, wi), from_center = length(m);
+    const T gap = (T(radius) - from_center) * (T(radius) + from_center);
+    const T half_chord = safe_sqrt(T(gap + sqr(away)));
+    if (!(half_chord > T(0))) return T(0);
+    const T distance = away > T(0) ? T(gap / (half_chord + away)) : T(half_chord - away);
+    if (!(distance > T(0))) return T(0);
     return sqr(distance) * T(radius) / (half_chord * area<T>());
   }
 };
