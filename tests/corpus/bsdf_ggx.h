@@ -140,6 +140,30 @@ struct Conductor {
   }
 };
 
+/// A generator of a renderer's own.
+///
+/// @source O'Neill 2014, PCG
+class Pcg32 {
+ public:
+  using result_type = std::uint32_t;
+  explicit Pcg32(std::uint32_t seed) {
+    state_ = seed * 0x9e3779b97f4a7c15u + kIncrement, (*this)();
+  }
+  static constexpr std::uint32_t min() { return 0; }
+  static constexpr std::uint32_t max() { return ~std::uint32_t{0}; }
+  std::uint32_t operator()() {
+    const std::uint64_t old = state_;
+    state_ = old * 6364136223846793005u + kIncrement;
+    const auto shifted = static_cast<std::uint32_t>(((old >> 18) ^ old) >> 27);
+    const auto turn = static_cast<std::uint32_t>(old >> 59);
+    return (shifted >> turn) | (shifted << ((~turn + 1) & 31));
+  }
+
+ private:
+  static constexpr std::uint64_t kIncrement = 1442695040888963407u;
+  std::uint64_t state_ = 0;
+};
+
 /// A metal with Beckmann's normals, all of them sampled, not only the visible.
 ///
 /// @source Walter et al. 2007, Eq. 25, 28, 29; Λ of Heitz 2014, Eq. 66
@@ -158,8 +182,7 @@ struct Beckmann {
     const T c2 = h.z * h.z, a2 = alpha * alpha;
     return std::exp(-(1 - c2) / (c2 * a2)) / (kPi<T> * a2 * c2 * c2);
   }
-  template <class Generator>
-  std::optional<Sampled<T>> sample(const V3<T>& wo, Generator& generator) const {
+  std::optional<Sampled<T>> sample(const V3<T>& wo, Pcg32& generator) const {
     if (!(wo.z > 0)) return std::nullopt;
     const auto number = [&generator] { return std::ldexp(static_cast<T>(generator() >> 9), -23); };
     const T u = number(), v = number();
@@ -185,30 +208,6 @@ struct Beckmann {
     const T lambdas = lambda(wo, roughness) + (fault == 5 ? T(0) : lambda(wi, roughness));
     return schlick(f0, dot(wo, h)) * d(h) / (1 + lambdas) / (4 * wo.z * wi.z);
   }
-};
-
-/// A generator of a renderer's own.
-///
-/// @source O'Neill 2014, PCG
-class Pcg32 {
- public:
-  using result_type = std::uint32_t;
-  explicit Pcg32(std::uint32_t seed) {
-    state_ = seed * 0x9e3779b97f4a7c15u + kIncrement, (*this)();
-  }
-  static constexpr std::uint32_t min() { return 0; }
-  static constexpr std::uint32_t max() { return ~std::uint32_t{0}; }
-  std::uint32_t operator()() {
-    const std::uint64_t old = state_;
-    state_ = old * 6364136223846793005u + kIncrement;
-    const auto shifted = static_cast<std::uint32_t>(((old >> 18) ^ old) >> 27);
-    const auto turn = static_cast<std::uint32_t>(old >> 59);
-    return (shifted >> turn) | (shifted << ((~turn + 1) & 31));
-  }
-
- private:
-  static constexpr std::uint64_t kIncrement = 1442695040888963407u;
-  std::uint64_t state_ = 0;
 };
 
 }  // namespace plumbline::tests::corpus
