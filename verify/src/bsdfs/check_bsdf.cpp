@@ -129,9 +129,8 @@ std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& b
     all.push_back(std::move(outcome.result));
   }
   if (black) all.push_back(black_everywhere(name, options));
-  const bool failed = std::any_of(all.begin(), all.end(), [](const CheckResult& r) {
-    return r.verdict == Verdict::fail;
-  });
+  const bool failed = std::any_of(all.begin(), all.end(),
+                                  [](const CheckResult& r) { return r.verdict == Verdict::fail; });
   if (failed) name_cause(diagnose(evidence), all);
   return all;
 }

@@ -85,8 +85,8 @@ void add_mirrored_directions(std::vector<Hypothesis>& list, const Blame& blame, 
             return Vec3{signs[0] * p.x[order[0]], signs[1] * p.x[order[1]],
                         signs[2] * p.x[order[2]]};
           },
-          "directions are mirrored between sample and " + blame.function + ": " +
-              blame.numerator + " at (x, y, z) is that of " + signed_axes(order, signs)));
+          "directions are mirrored between sample and " + blame.function + ": " + blame.numerator +
+              " at (x, y, z) is that of " + signed_axes(order, signs)));
     }
   } while (std::next_permutation(order.begin(), order.end()));
 }
@@ -144,14 +144,30 @@ void add_mirrored_points(std::vector<Hypothesis>& list, const Domain& domain, co
     }
     return;
   }
-  add(1, [](const Point2& p) { return Point2{1 - p[0], p[1]}; },
+  add(
+      1,
+      [](const Point2& p) {
+        return Point2{1 - p[0], p[1]};
+      },
       "the first coordinate runs the other way");
   if (domain.dimension() < 2) return;
-  add(1, [](const Point2& p) { return Point2{p[0], 1 - p[1]}; },
+  add(
+      1,
+      [](const Point2& p) {
+        return Point2{p[0], 1 - p[1]};
+      },
       "the second coordinate runs the other way");
-  add(1, [](const Point2& p) { return Point2{1 - p[0], 1 - p[1]}; },
+  add(
+      1,
+      [](const Point2& p) {
+        return Point2{1 - p[0], 1 - p[1]};
+      },
       "both coordinates run the other way");
-  add(1, [](const Point2& p) { return Point2{p[1], p[0]}; },
+  add(
+      1,
+      [](const Point2& p) {
+        return Point2{p[1], p[0]};
+      },
       "the two coordinates are exchanged");
 }
 
@@ -164,8 +180,8 @@ std::vector<double> likely_shifts() {
   };
   for (int n = 2; n <= 160; ++n) add(n);
   for (int n = 256; n <= 8192; n *= 2) add(n);
-  for (const double n : {180., 192., 200., 240., 250., 300., 320., 360., 384., 400., 480., 500.,
-                         600., 640., 720., 768., 800., 900., 1000., 2000.}) {
+  for (const double n : {180., 192., 200., 240., 250., 300., 320., 360., 384.,  400.,
+                         480., 500., 600., 640., 720., 768., 800., 900., 1000., 2000.}) {
     add(n);
   }
   std::vector<double> both;
@@ -188,7 +204,9 @@ void add_shifted_points(std::vector<Hypothesis>& list, const Domain& domain, con
             return q;
           },
           blame.function + " is that of samples moved by " + number(shift) + " of the " +
-              (coordinates == 1 ? "interval" : i == 0 ? "first extent" : "second extent") +
+              (coordinates == 1 ? "interval"
+               : i == 0         ? "first extent"
+                                : "second extent") +
               " (a cell or half of one)"));
     }
   }
@@ -198,8 +216,8 @@ void add_shifted_points(std::vector<Hypothesis>& list, const Domain& domain, con
 Vec3 moved_on_map(const Vec3& w, std::size_t pole, double azimuth, double polar) {
   const std::size_t a = (pole + 1) % 3, b = (pole + 2) % 3;
   const double radius = std::hypot(w[a], w[b]);
-  const double theta = std::clamp(std::atan2(radius, w[pole]) + polar, 1e-9,
-                                  std::numbers::pi - 1e-9);
+  const double theta =
+      std::clamp(std::atan2(radius, w[pole]) + polar, 1e-9, std::numbers::pi - 1e-9);
   const double phi = std::atan2(w[b], w[a]) + azimuth;
   Vec3 moved;
   moved[pole] = std::cos(theta);
@@ -224,9 +242,8 @@ void add_shifted_directions(std::vector<Hypothesis>& list, const Blame& blame, c
           [=](const Place& p) { return moved_on_map(p.x, pole, 2 * kPi * shift, 0); },
           blame.function + " is that of directions turned by " + number(shift) + " of a turn" +
               around + " (a column or half of one)"));
-      const std::string rows = blame.function + " is that of directions moved by " +
-                               number(shift) + " of the latitudes" + around +
-                               " (a row or half of one)";
+      const std::string rows = blame.function + " is that of directions moved by " + number(shift) +
+                               " of the latitudes" + around + " (a row or half of one)";
       list.push_back(at_another_point(
           CauseKind::shifted, rank + 0.1, ask,
           [=](const Place& p) { return moved_on_map(p.x, pole, 0, kPi * shift); }, rows));

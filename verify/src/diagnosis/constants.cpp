@@ -131,8 +131,8 @@ void add_by_view(std::vector<Hypothesis>& list, const Blame& blame,
     };
     one.words = [=](std::span<const double> n) {
       return std::string("the probability of ") + (other ? "transmission" : "reflection") +
-             " is wrong in, or missing from, " + blame.function + ": by " +
-             number(std::exp(n[0])) + " here";
+             " is wrong in, or missing from, " + blame.function + ": by " + number(std::exp(n[0])) +
+             " here";
     };
     list.push_back(std::move(one));
   }

@@ -77,11 +77,9 @@ class Diagnosis {
     if (auto cause = of_lobes()) return *cause;
     const Observations density = Observations::of_density(evidence_);
     if (!density.empty() && !density.judge(kAsStated).admissible) return of_density(density);
-    const Observations record =
-        Observations::of_series(evidence_, RatioKind::record_over_pdf);
+    const Observations record = Observations::of_series(evidence_, RatioKind::record_over_pdf);
     if (!record.empty() && !record.judge(kAsStated).admissible) return of_record(record);
-    const Observations weight =
-        Observations::of_series(evidence_, RatioKind::weight_over_value);
+    const Observations weight = Observations::of_series(evidence_, RatioKind::weight_over_value);
     if (!weight.empty() && !weight.judge(kAsStated).admissible) return of_weight(weight);
     return of_values();
   }
@@ -93,8 +91,7 @@ class Diagnosis {
       if (!e.numbers.empty()) numbers = e.numbers.front();
       return e.hypothesis->words(numbers);
     };
-    Cause cause{found.front().hypothesis->kind, words(found.front()) + remark, {},
-                CauseKind::none};
+    Cause cause{found.front().hypothesis->kind, words(found.front()) + remark, {}, CauseKind::none};
     for (const Explanation& e : found) {
       if (e.hypothesis->kind == cause.kind || e.cost > found.front().cost + kClose) continue;
       cause.second = words(e);
@@ -107,15 +104,15 @@ class Diagnosis {
   std::optional<Cause> of_lobes() {
     const std::size_t lobes = evidence_.views.front().pair->lobes.size();
     for (std::size_t i = 0; i < lobes; ++i) {
-      const Observations lobe = Observations::of_series(
-          evidence_, RatioKind::lobe_density_over_pdf, static_cast<int>(i));
+      const Observations lobe =
+          Observations::of_series(evidence_, RatioKind::lobe_density_over_pdf, static_cast<int>(i));
       if (lobe.empty() || lobe.judge(kAsStated).admissible) continue;
       const Blame blame{"the pdf of " + evidence_.views.front().pair->lobes[i].name,
                         "the density of its samples"};
       std::vector<Hypothesis> all;
-      for (auto&& list : {constant_hypotheses(evidence_, blame, lobe),
-                          factor_hypotheses(evidence_, blame, lobe),
-                          parametric_hypotheses(evidence_, blame, lobe)}) {
+      for (auto&& list :
+           {constant_hypotheses(evidence_, blame, lobe), factor_hypotheses(evidence_, blame, lobe),
+            parametric_hypotheses(evidence_, blame, lobe)}) {
         all.insert(all.end(), list.begin(), list.end());
       }
       return from(explain(lobe, all));
@@ -127,12 +124,12 @@ class Diagnosis {
   std::string which_function(const Explanation& e) const {
     const Observations record = Observations::of_series(evidence_, RatioKind::record_over_pdf);
     if (record.empty()) return {};
-    const auto numbers = [&e](std::size_t v) { return std::span<const double>(e.numbers[v]); };
     if (record.judge(kAsStated).admissible) return " (the record states the same)";
-    if (record.judge(e.hypothesis->prediction, numbers).admissible) {
-      return " (the pdf in the record is right)";
+    for (std::size_t v = 0; v < record.views().size(); ++v) {
+      const Fit fit = record.judge_view(v, e.hypothesis->prediction, e.numbers[v]);
+      if (fit.tested > 0 && !fit.admissible) return {};
     }
-    return {};
+    return " (the pdf in the record is right)";
   }
 
   Cause of_density(const Observations& density) {
@@ -165,10 +162,12 @@ class Diagnosis {
       return Cause{CauseKind::not_rejected,
                    "samples below the horizon are not rejected: up to " + some +
                        " lie where pdf() is 0, and the rest are as dense as it says",
-                   {}, CauseKind::none};
+                   {},
+                   CauseKind::none};
     }
     return Cause{CauseKind::support,
-                 "the support of pdf() is too small: up to " + some + " lie outside it", {},
+                 "the support of pdf() is too small: up to " + some + " lie outside it",
+                 {},
                  CauseKind::none};
   }
 
@@ -179,23 +178,24 @@ class Diagnosis {
       if (v.mass) atoms = std::max(atoms, v.mass->atoms);
     }
     if (!(atoms > 1e-9)) return std::nullopt;
-    const auto left = [](const Place& p) {
-      return p.view->mass ? 1 - p.view->mass->atoms : 1.0;
-    };
+    const auto left = [](const Place& p) { return p.view->mass ? 1 - p.view->mass->atoms : 1.0; };
     if (density.judge([left](const Place& p, auto) { return p.base * left(p); }).admissible) {
       return Cause{CauseKind::fresnel,
                    "1 − F, the probability that the atoms leave to the rest, is missing from pdf()",
-                   {}, CauseKind::none};
+                   {},
+                   CauseKind::none};
     }
     if (density.judge([left](const Place& p, auto) { return p.base / left(p); }).admissible) {
       return Cause{CauseKind::fresnel,
                    "1 − F, the probability that the atoms leave to the rest, is there twice in "
                    "pdf()",
-                   {}, CauseKind::none};
+                   {},
+                   CauseKind::none};
     }
     if (density.without_mass().judge(kAsStated).admissible) {
       return Cause{CauseKind::atom_as_density,
-                   "the mass that atoms state is not the share of samples that they get", {},
+                   "the mass that atoms state is not the share of samples that they get",
+                   {},
                    CauseKind::none};
     }
     return std::nullopt;
@@ -217,7 +217,8 @@ class Diagnosis {
                    "samples lie unevenly to the left and right of the plane of incidence, where "
                    "pdf() is the same, and are nowhere denser than it says: they are drawn in "
                    "another tangent frame than the one that pdf() is for",
-                   {}, CauseKind::none};
+                   {},
+                   CauseKind::none};
     }
     if (empty > 0.02 * expected && excess > kCertain) {
       const bool chosen = map_jumps(evidence_.views.front());
@@ -227,10 +228,12 @@ class Diagnosis {
                      "no sample falls where " + some +
                          " is, and more than expected elsewhere: a number that has chosen a part "
                          "is used again without being stretched to [0, 1)",
-                     {}, CauseKind::none};
+                     {},
+                     CauseKind::none};
       }
       return Cause{CauseKind::support,
-                   "no sample falls where " + some + " is: samples cover a part of it only", {},
+                   "no sample falls where " + some + " is: samples cover a part of it only",
+                   {},
                    CauseKind::none};
     }
     return std::nullopt;
@@ -245,12 +248,12 @@ class Diagnosis {
       return {CauseKind::chosen_lobe_only,
               "the record's pdf is not a function of the directions: it states that of the chosen "
               "lobe in place of the mixture's",
-              {}, CauseKind::none};
+              {},
+              CauseKind::none};
     }
     const auto all = all_hypotheses(evidence_, {"pdf()", "the pdf in the record"}, record, false);
     Cause cause = from(explain(record, all));
-    const std::string right =
-        "the pdf in the record is wrong: samples are as dense as pdf() says";
+    const std::string right = "the pdf in the record is wrong: samples are as dense as pdf() says";
     if (cause.kind == CauseKind::none) {
       return {CauseKind::record_pdf, right, {}, CauseKind::none};
     }
@@ -266,8 +269,8 @@ class Diagnosis {
         for (const ExactPoint& p : v.exact) {
           ++tested;
           for (const PairLobe& lobe : p.place.view->pair->lobes) {
-            const double expected =
-                (weighed ? lobe.probability : 1.0) * lobe.pdf(p.place.x) / pdf_at(*v.view, p.place.x);
+            const double expected = (weighed ? lobe.probability : 1.0) * lobe.pdf(p.place.x) /
+                                    pdf_at(*v.view, p.place.x);
             if (std::abs(std::log(p.ratio / expected)) <= 4 * p.error + 1e-9) {
               ++matching;
               break;
@@ -279,7 +282,8 @@ class Diagnosis {
         return Cause{CauseKind::chosen_lobe_only,
                      weighed ? "one lobe's part stands for that of the whole mixture"
                              : "the pdf of the chosen lobe stands in the place of the mixture's",
-                     {}, CauseKind::none};
+                     {},
+                     CauseKind::none};
       }
     }
     return std::nullopt;
@@ -292,7 +296,8 @@ class Diagnosis {
       return {CauseKind::chosen_lobe_only,
               "the weight is not a function of the directions: it holds f or the pdf of the chosen "
               "lobe in place of the mixture's",
-              {}, CauseKind::none};
+              {},
+              CauseKind::none};
     }
     const auto all = all_hypotheses(evidence_, blame, weight, true);
     std::vector<Explanation> found = explain(weight, all);

@@ -101,8 +101,8 @@ namespace {
 
 /// How the values of one coordinate crowd.
 struct Crowd {
-  double largest = 0;   ///< share of the most frequent value
-  double different = 0; ///< share of values that occur once
+  double largest = 0;    ///< share of the most frequent value
+  double different = 0;  ///< share of values that occur once
   double value = 0;
   std::size_t distinct = 0;
 };
@@ -136,10 +136,10 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
   constexpr int kSamples = 8192;
   for (const ViewEvidence* v : views_to_ask(evidence)) {
     if (v->pair->domain.dimension() == 0) continue;
-    const auto names = v->pair->domain.directions()
-                            ? std::array<const char*, 3>{"x", "y", "z"}
-                            : std::array<const char*, 3>{"first coordinate", "second coordinate",
-                                                         ""};
+    const auto names =
+        v->pair->domain.directions()
+            ? std::array<const char*, 3>{"x", "y", "z"}
+            : std::array<const char*, 3>{"first coordinate", "second coordinate", ""};
     std::array<std::vector<double>, 3> coordinates;
     for (const PairSample& s : draw_samples(*v, kSamples)) {
       if (s.mass > 0) continue;
@@ -176,9 +176,8 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
     if (crowded == 0) continue;
     const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
     if (crowded >= varying || (v->pair->domain.dimension() == 1)) {
-      return Finding{CauseKind::on_a_line,
-                     some + " lie in one point, " + where +
-                         ": a clamp, or an atom that is not said to be one"};
+      return Finding{CauseKind::on_a_line, some + " lie in one point, " + where +
+                                               ": a clamp, or an atom that is not said to be one"};
     }
     return Finding{CauseKind::on_a_line, some + " lie on a line, " + where + ": a clamp?"};
   }
@@ -192,16 +191,16 @@ std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence) {
     for (const PairSample& s : draw_samples(*v, kSamples)) {
       (s.mass > 0 ? atoms : points) += 1;
       if (s.mass > 0 && s.pdf > 0) {
-        return Finding{CauseKind::atom_as_density,
-                       "a sample that is an atom of mass " + number(s.mass) +
-                           " states a density, " + number(s.pdf)};
+        return Finding{CauseKind::atom_as_density, "a sample that is an atom of mass " +
+                                                       number(s.mass) + " states a density, " +
+                                                       number(s.pdf)};
       }
     }
     if (atoms > 0 && points == 0 && v->mass && v->mass->integral > 10 * v->mass->integral_error &&
         v->mass->integral > 1e-6) {
-      return Finding{CauseKind::atom_as_density,
-                     "all samples are atoms, but pdf() gives a density, ∫pdf = " +
-                         number(v->mass->integral)};
+      return Finding{
+          CauseKind::atom_as_density,
+          "all samples are atoms, but pdf() gives a density, ∫pdf = " + number(v->mass->integral)};
     }
   }
   return std::nullopt;
@@ -225,9 +224,9 @@ std::optional<Finding> find_not_finite(const ReportEvidence& evidence) {
         }
         const double pdf = pdf_at(*v, x);
         if (bad(pdf)) {
-          return Finding{CauseKind::not_finite, "pdf() is " + number(pdf) + " at (" +
-                                                    number(x[0]) + ", " + number(x[1]) + ", " +
-                                                    number(x[2]) + ")"};
+          return Finding{CauseKind::not_finite, "pdf() is " + number(pdf) + " at (" + number(x[0]) +
+                                                    ", " + number(x[1]) + ", " + number(x[2]) +
+                                                    ")"};
         }
         if (const double f = value_at(*v, x); !std::isfinite(f)) {
           return Finding{CauseKind::not_finite, "f is " + number(f) + " at (" + number(x[0]) +

@@ -46,11 +46,10 @@ void add_of_directions(std::vector<Factor>& list, bool bsdf) {
     const std::string of = axis == 1 ? " from the y axis" : " from the x axis";
     list.push_back({"cosθ" + of, CauseKind::cosine,
                     [axis](const Place& p) { return std::abs(p.x[axis]); }, 3});
-    list.push_back({"sinθ" + of, CauseKind::sine,
-                    [axis](const Place& p) {
-                      return std::sqrt(std::max(0.0, 1 - p.x[axis] * p.x[axis]));
-                    },
-                    3});
+    list.push_back(
+        {"sinθ" + of, CauseKind::sine,
+         [axis](const Place& p) { return std::sqrt(std::max(0.0, 1 - p.x[axis] * p.x[axis])); },
+         3});
   }
 }
 
@@ -218,8 +217,9 @@ std::vector<Factor> factors_of(const ReportEvidence& evidence, const Observation
 std::string with_power(const std::string& name, double power) {
   const bool plain = name.find(' ') == std::string::npos || name.front() == '(';
   const std::string group = plain ? name : "(" + name + ")";
-  const std::string amount =
-      std::abs(power) == 2 ? group + "²" : std::abs(power) == 0.5 ? "√" + group : name;
+  const std::string amount = std::abs(power) == 2     ? group + "²"
+                             : std::abs(power) == 0.5 ? "√" + group
+                                                      : name;
   if (power > 0) return amount;
   return "1/" + (std::abs(power) == 1 ? group : amount);
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <optional>
 
@@ -16,28 +18,32 @@ std::optional<Explanation> try_one(const Observations& observations, const Hypot
   e.hypothesis = &h;
   const std::size_t views = observations.views().size();
   e.numbers.resize(views);
-  double free = 0;
-  if (!h.starts.empty()) {
-    const double each = static_cast<double>(h.starts.front().size());
-    if (h.per_view) {
-      for (std::size_t v = 0; v < views; ++v) {
-        e.numbers[v] = fit_parameters(observations, h.prediction, h.starts, static_cast<int>(v));
-      }
-      free = each * static_cast<double>(std::max<std::size_t>(1, views));
-    } else {
-      const auto fitted = fit_parameters(observations, h.prediction, h.starts, -1);
-      std::fill(e.numbers.begin(), e.numbers.end(), fitted);
-      free = each;
+  double free = 0, tested = 0;
+  const bool fitted = !h.starts.empty();
+  std::vector<double> of_all;
+  if (fitted && !h.per_view) of_all = fit_parameters(observations, h.prediction, h.starts, -1);
+  for (const std::size_t v : observations.order()) {
+    e.numbers[v] = of_all;
+    const ViewObservations& view = observations.views()[v];
+    if (view.exact.empty() && view.bins.empty()) continue;
+    if (fitted && h.per_view) {
+      e.numbers[v] = fit_parameters(observations, h.prediction, h.starts, static_cast<int>(v));
+      free += static_cast<double>(h.starts.front().size());
     }
+    const Fit fit = observations.judge_view(v, h.prediction, e.numbers[v]);
+    if (!fit.admissible) return std::nullopt;
+    tested += static_cast<double>(fit.tested);
+    e.worst = std::max(e.worst, fit.worst);
   }
-  const Fit fit = observations.judge(h.prediction, [&e](std::size_t v) {
-    return std::span<const double>(e.numbers[v]);
-  });
-  if (!fit.admissible) return std::nullopt;
+  if (tested == 0) return std::nullopt;
+  if (fitted && !h.per_view) free = static_cast<double>(h.starts.front().size());
+  // Views that show nothing have no numbers of their own: they take those of one that does.
+  for (auto& numbers : e.numbers) {
+    if (numbers.empty()) numbers = e.numbers[observations.order().front()];
+  }
   const std::optional<double> charge = h.charge ? h.charge(e.numbers) : 0.0;
   if (!charge) return std::nullopt;
   e.cost = kPerNumber * free + h.complexity + *charge;
-  e.worst = fit.worst;
   return e;
 }
 
@@ -47,6 +53,7 @@ std::vector<Explanation> explain(const Observations& observations,
                                  const std::vector<Hypothesis>& hypotheses) {
   std::vector<Explanation> admissible;
   for (const Hypothesis& h : hypotheses) {
+    if (const char* k = std::getenv("PL_TRACE")) { std::string w; if (to_string(h.kind) == k) { std::vector<double> n(8, 0.1); std::fprintf(stderr, "%s\n", h.words(n).c_str()); } }
     if (auto e = try_one(observations, h)) admissible.push_back(std::move(*e));
   }
   std::stable_sort(admissible.begin(), admissible.end(),
@@ -77,14 +84,30 @@ std::string usual_constant(double value, double error) {
     double value;
     const char* name;
   };
-  static constexpr Usual kUsual[] = {
-      {2, "2"},           {3, "3"},           {4, "4"},          {5, "5"},
-      {6, "6"},           {8, "8"},           {9, "9"},          {10, "10"},
-      {12, "12"},         {16, "16"},         {kPi, "π"},        {2 * kPi, "2π"},
-      {4 * kPi, "4π"},    {8 * kPi, "8π"},    {kPi / 2, "π/2"},  {kPi / 3, "π/3"},
-      {kPi / 4, "π/4"},   {kPi * kPi, "π²"},  {2 * kPi * kPi, "2π²"},
-      {1.5, "3/2"},       {4.0 / 3, "4/3"},   {kPi / 6, "π/6"},  {4 * kPi / 3, "4π/3"},
-      {std::numbers::sqrt2, "√2"}};
+  static constexpr Usual kUsual[] = {{2, "2"},
+                                     {3, "3"},
+                                     {4, "4"},
+                                     {5, "5"},
+                                     {6, "6"},
+                                     {8, "8"},
+                                     {9, "9"},
+                                     {10, "10"},
+                                     {12, "12"},
+                                     {16, "16"},
+                                     {kPi, "π"},
+                                     {2 * kPi, "2π"},
+                                     {4 * kPi, "4π"},
+                                     {8 * kPi, "8π"},
+                                     {kPi / 2, "π/2"},
+                                     {kPi / 3, "π/3"},
+                                     {kPi / 4, "π/4"},
+                                     {kPi * kPi, "π²"},
+                                     {2 * kPi * kPi, "2π²"},
+                                     {1.5, "3/2"},
+                                     {4.0 / 3, "4/3"},
+                                     {kPi / 6, "π/6"},
+                                     {4 * kPi / 3, "4π/3"},
+                                     {std::numbers::sqrt2, "√2"}};
   std::string name;
   int found = 0;
   for (const Usual& u : kUsual) {

@@ -80,8 +80,7 @@ double side_of(const Place& p) { return has_wo(*p.view) && p.wo[2] < 0 ? -1 : 1;
 std::vector<Companion> companions(bool both_sides) {
   std::vector<Companion> list = {
       {"diffuse", [](const Place& p) { return std::max(0.0, side_of(p) * p.x[2]) / kPi; }, 0},
-      {"uniform",
-       [](const Place& p) { return side_of(p) * p.x[2] > 0 ? 1 / (2 * kPi) : 0; }, 0.5}};
+      {"uniform", [](const Place& p) { return side_of(p) * p.x[2] > 0 ? 1 / (2 * kPi) : 0; }, 0.5}};
   if (both_sides) {
     list.push_back({"uniform on the whole sphere", [](const Place&) { return 1 / (4 * kPi); }, 1});
     list.push_back({"diffuse transmission",
@@ -201,8 +200,8 @@ void add_factor_of_other_lobe(std::vector<Hypothesis>& list, const Companion& c,
     h.starts = {{0.0, -3.0}, {0.0, -2.0}, {0.0, -1.0}, {0.0, -0.3}};
     h.prediction = [density = c.density, power](const Place& p, std::span<const double> n) {
       const double beside = logistic(n[0]) * density(p);
-      return beside + std::pow(smith_g1(p.wo, std::exp(n[1])), power) *
-                          std::max(0.0, p.base - beside);
+      return beside +
+             std::pow(smith_g1(p.wo, std::exp(n[1])), power) * std::max(0.0, p.base - beside);
     };
     h.words = [power, blame](std::span<const double> n) {
       return std::string("G1(wo) of the visible normals ") +
@@ -227,8 +226,8 @@ void add_other_companion(std::vector<Hypothesis>& list, const Companion& samples
       return std::max(0.0, p.base + logistic(n[0]) * (a(p) - b(p)));
     };
     h.words = [text = "one lobe is sampled as " + std::string(samples.name) + ", but " +
-                      std::string(stated.name) + " in " + blame.function](
-                  std::span<const double>) { return text; };
+                      std::string(stated.name) + " in " +
+                      blame.function](std::span<const double>) { return text; };
     list.push_back(std::move(h));
   }
 }

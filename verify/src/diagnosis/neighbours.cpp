@@ -32,11 +32,10 @@ std::vector<Valued> valued_samples(const ViewEvidence& view, bool of_weight) {
     double ratio = s->pdf / pdf;
     if (of_weight) {
       const double value = value_at(view, s->x);
-      const double weight =
-          s->weight.count > 0
-              ? *std::max_element(s->weight.value.begin(),
-                                  s->weight.value.begin() + s->weight.count)
-              : 0;
+      const double weight = s->weight.count > 0
+                                ? *std::max_element(s->weight.value.begin(),
+                                                    s->weight.value.begin() + s->weight.count)
+                                : 0;
       ratio = weight * pdf / value;
     }
     if (ratio > 0 && std::isfinite(ratio)) out.push_back({s->x, std::log(ratio)});

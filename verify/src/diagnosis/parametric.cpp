@@ -35,7 +35,8 @@ void add_masking(std::vector<Hypothesis>& list, const Blame& blame) {
        [](const Place& p, double a) { return smith_g1(p.wo, a) * smith_g1(p.x, a); }},
       {"G1(wo)/G1(wi)", 3,
        [](const Place& p, double a) { return smith_g1(p.wo, a) / smith_g1(p.x, a); }},
-      {"G1 of both directions together", 4, [](const Place& p, double a) {
+      {"G1 of both directions together", 4,
+       [](const Place& p, double a) {
          // Height-correlated: 1/(1 + Λo + Λi). @source Heitz 2014 (JCGT 3:2), Eq. 99
          return 1 / (1 / smith_g1(p.wo, a) + 1 / smith_g1(p.x, a) - 1);
        }},
@@ -60,8 +61,8 @@ void add_masking(std::vector<Hypothesis>& list, const Blame& blame) {
       h.complexity = 3;
       h.prediction = [power](const Place& p, std::span<const double> n) {
         const Vec3 m = half_of(p);
-        const double visible = smith_g1(p.wo, std::exp(n[0])) * std::abs(dot(p.wo, m)) /
-                               std::abs(p.wo[2] * m[2]);
+        const double visible =
+            smith_g1(p.wo, std::exp(n[0])) * std::abs(dot(p.wo, m)) / std::abs(p.wo[2] * m[2]);
         return p.base * std::pow(visible, power);
       };
       h.words = [power, blame](std::span<const double> n) {
@@ -129,8 +130,8 @@ void add_roughness(std::vector<Hypothesis>& list, const Blame& blame) {
       };
       h.words = [two, name = std::string(f.name), blame](std::span<const double> n) {
         const auto [right, wrong] = two(n);
-        return "the roughness in " + blame.function + " is another: " + alpha(wrong) +
-               " there, " + alpha(right) + " elsewhere (" + name + ")";
+        return "the roughness in " + blame.function + " is another: " + alpha(wrong) + " there, " +
+               alpha(right) + " elsewhere (" + name + ")";
       };
       list.push_back(std::move(h));
     };
@@ -141,8 +142,7 @@ void add_roughness(std::vector<Hypothesis>& list, const Blame& blame) {
     for (const double a : {-4.5, -3.0, -2.0, -1.2, -0.6, -0.1}) {
       for (const double ratio : {-0.7, -0.1, 0.1, 0.7}) both.push_back({a, a + ratio});
     }
-    add(f.rank, std::move(both),
-        [](std::span<const double> n) { return std::pair{n[0], n[1]}; });
+    add(f.rank, std::move(both), [](std::span<const double> n) { return std::pair{n[0], n[1]}; });
   }
 }
 
@@ -156,8 +156,7 @@ void add_exponents(std::vector<Hypothesis>& list, bool bsdf, const Blame& blame)
   if (bsdf) {
     forms.push_back({"cosθh", [](const Place& p) { return std::abs(half_of(p)[2]); }});
     forms.push_back({"the cosine to the mirror direction", [](const Place& p) {
-                       return std::max(0.0, p.wo[2] * p.x[2] - p.wo[0] * p.x[0] -
-                                                p.wo[1] * p.x[1]);
+                       return std::max(0.0, p.wo[2] * p.x[2] - p.wo[0] * p.x[0] - p.wo[1] * p.x[1]);
                      }});
   }
   for (const Form& f : forms) {
@@ -169,8 +168,8 @@ void add_exponents(std::vector<Hypothesis>& list, bool bsdf, const Blame& blame)
       return p.base * std::exp(n[0]) * std::pow(cosine(p), n[1]);
     };
     h.words = [name = std::string(f.name), blame](std::span<const double> n) {
-      return "the exponent of " + name + " in " + blame.function + " is off by " +
-             number(-n[1]) + ", with a factor of " + number(std::exp(n[0]));
+      return "the exponent of " + name + " in " + blame.function + " is off by " + number(-n[1]) +
+             ", with a factor of " + number(std::exp(n[0]));
     };
     list.push_back(std::move(h));
   }
@@ -183,10 +182,9 @@ void add_fresnel(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
     double rank;
     std::function<double(const Place&)> value;
   };
-  const Cosine cosines[] = {
-      {"wo·h", 0, [](const Place& p) { return dot(p.wo, half_of(p)); }},
-      {"cosθo", 0.3, [](const Place& p) { return p.wo[2]; }},
-      {"cosθi", 0.4, [](const Place& p) { return p.x[2]; }}};
+  const Cosine cosines[] = {{"wo·h", 0, [](const Place& p) { return dot(p.wo, half_of(p)); }},
+                            {"cosθo", 0.3, [](const Place& p) { return p.wo[2]; }},
+                            {"cosθi", 0.4, [](const Place& p) { return p.x[2]; }}};
   // What F is of the number n: exact with the index of the BSDF, with any, and Schlick's.
   struct Law {
     double rank;
@@ -195,7 +193,10 @@ void add_fresnel(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
     std::function<double(const Place&, double cosine, std::span<const double>)> f;
   };
   std::vector<Law> laws = {
-      {0, {{-3.2}, {-1.0}, {0.5}}, "Schlick", [](const Place&, double c, auto n) {
+      {0,
+       {{-3.2}, {-1.0}, {0.5}},
+       "Schlick",
+       [](const Place&, double c, auto n) {
          return fresnel_schlick(c, 1 / (1 + std::exp(-n[0])));
        }},
       {0.1, {{0.4}, {-0.4}, {0.1}}, "dielectric", [](const Place&, double c, auto n) {
@@ -226,8 +227,7 @@ void add_fresnel(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
        [](double f, bool through) { return through ? 1 - f : 1; }},
       {"1 − F of transmission is too many in ", 1.1, CauseKind::fresnel,
        [](double f, bool through) { return through ? 1 / (1 - f) : 1; }},
-      {"1 − F is missing from ", 2, CauseKind::fresnel,
-       [](double f, bool) { return 1 - f; }},
+      {"1 − F is missing from ", 2, CauseKind::fresnel, [](double f, bool) { return 1 - f; }},
       {"1 − F is too many in ", 2.1, CauseKind::fresnel,
        [](double f, bool) { return 1 / (1 - f); }}};
   for (const Cosine& c : cosines) {
@@ -264,8 +264,8 @@ void add_axial(std::vector<Hypothesis>& list, const Blame& blame) {
       return p.base * hg(p.x[axis], g) / hg(p.x[axis], -g);
     };
     h.words = [=](std::span<const double> n) {
-      return "g has the other sign in " + blame.function + " (Henyey-Greenstein, g = " +
-             number(std::tanh(n[0])) + ")";
+      return "g has the other sign in " + blame.function +
+             " (Henyey-Greenstein, g = " + number(std::tanh(n[0])) + ")";
     };
     list.push_back(h);
     h.kind = CauseKind::roughness;

@@ -124,7 +124,8 @@ std::vector<Finding> explain_asymmetry(const ReportEvidence& evidence) {
   std::vector<Fixed> fixed = {
       {CauseKind::value_cosine, "f holds cosθi once too often: the cosine is applied twice",
        cosine},
-      {CauseKind::value_cosine, "f is divided by cosθi once too often, or by cosθi instead of cosθo",
+      {CauseKind::value_cosine,
+       "f is divided by cosθi once too often, or by cosθi instead of cosθo",
        [cosine](const Vec3& wo, const Vec3& wi) { return 1 / cosine(wo, wi); }},
       {CauseKind::value_cosine, "f holds cosθi twice too often",
        [cosine](const Vec3& wo, const Vec3& wi) { return std::pow(cosine(wo, wi), 2); }},
@@ -166,9 +167,9 @@ std::vector<Finding> explain_asymmetry(const ReportEvidence& evidence) {
       };
     };
     if (const auto n = fitted(evidence, masking, roughnesses)) {
-      found.push_back({CauseKind::masking,
-                       std::string("masking G1 of ") + (power > 0 ? "wo" : "wi") +
-                           " is missing from f (GGX, α = " + number(std::exp(*n)) + ")"});
+      found.push_back(
+          {CauseKind::masking, std::string("masking G1 of ") + (power > 0 ? "wo" : "wi") +
+                                   " is missing from f (GGX, α = " + number(std::exp(*n)) + ")"});
     }
     const auto schlick = [power](double n) -> OfPair {
       return [power, f0 = 1 / (1 + std::exp(-n))](const Vec3& wo, const Vec3&) {
@@ -176,9 +177,10 @@ std::vector<Finding> explain_asymmetry(const ReportEvidence& evidence) {
       };
     };
     if (const auto n = fitted(evidence, schlick, {-3.2, -1.0, 0.5})) {
-      found.push_back({CauseKind::fresnel,
-                       "Fresnel in f is of the cosine of one direction, not of wo·h (Schlick, F0 = " +
-                           number(1 / (1 + std::exp(-*n))) + ")"});
+      found.push_back(
+          {CauseKind::fresnel,
+           "Fresnel in f is of the cosine of one direction, not of wo·h (Schlick, F0 = " +
+               number(1 / (1 + std::exp(-*n))) + ")"});
     }
   }
   if (!found.empty()) return found;
@@ -226,8 +228,8 @@ std::vector<Finding> explain_energy(const ReportEvidence& evidence) {
                      "the albedo is " + number(most) +
                          " from every direction: 1/π or another constant is missing from f"});
   }
-  found.push_back({CauseKind::energy, "f gives off more than arrives: the albedo reaches " +
-                                          number(most)});
+  found.push_back(
+      {CauseKind::energy, "f gives off more than arrives: the albedo reaches " + number(most)});
   return found;
 }
 

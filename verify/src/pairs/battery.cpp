@@ -21,8 +21,7 @@ namespace {
 std::vector<BinSeen> bins_seen(const BinnedPair& binned) {
   constexpr double kCountsPerBin = 100;
   const double n = static_cast<double>(binned.counts().drawn);
-  const int depth =
-      std::clamp(static_cast<int>(std::log2(n / kCountsPerBin)), 0, binned.depth());
+  const int depth = std::clamp(static_cast<int>(std::log2(n / kCountsPerBin)), 0, binned.depth());
   const BinTable table = table_of(binned, depth);
   const int finer = binned.depth() - depth;
   std::vector<BinSeen> bins(table.expected.size());
