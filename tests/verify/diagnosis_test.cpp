@@ -53,8 +53,10 @@ ErasedBsdf diffuse() { return erased(Diffuse{}); }
 ErasedBsdf coated() {
   return mixture(diffuse(), mirror(), 0.4, [](const Vec3&) { return 0.4; });
 }
+/// Lobes that do not show. Of three numbers, so that there is no Jacobian of the choice.
 ErasedBsdf hidden(ErasedBsdf b) {
   b.lobes.clear();
+  b.numbers = 3;
   return b;
 }
 

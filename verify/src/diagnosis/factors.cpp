@@ -232,11 +232,6 @@ std::string missing(const Factor& f, double power, const Blame& blame) {
   return "factor " + amount + " too many in " + blame.function;
 }
 
-struct Term {
-  const Factor* factor;
-  double power;
-};
-
 double product(const std::vector<std::pair<Factor, double>>& terms, const Place& p) {
   double value = 1;
   for (const auto& [f, power] : terms) {

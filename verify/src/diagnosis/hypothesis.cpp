@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numbers>
 #include <optional>
 
@@ -53,7 +51,6 @@ std::vector<Explanation> explain(const Observations& observations,
                                  const std::vector<Hypothesis>& hypotheses) {
   std::vector<Explanation> admissible;
   for (const Hypothesis& h : hypotheses) {
-    if (const char* k = std::getenv("PL_TRACE")) { std::string w; if (to_string(h.kind) == k) { std::vector<double> n(8, 0.1); std::fprintf(stderr, "%s\n", h.words(n).c_str()); } }
     if (auto e = try_one(observations, h)) admissible.push_back(std::move(*e));
   }
   std::stable_sort(admissible.begin(), admissible.end(),

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numeric>
 
 #include "distributions.h"
@@ -45,17 +43,20 @@ struct BinPrediction {
 BinPrediction predict(const CountedBin& bin, const Prediction& prediction,
                       std::span<const double> parameters) {
   double mean = 0, squares = 0;
+  bool seen = false;
   for (std::size_t i = 0; i < bin.nodes.size(); ++i) {
     if (!(bin.nodes[i].base > 0)) continue;
+    seen = true;
     const double ratio = prediction(bin.nodes[i], parameters) / bin.nodes[i].base;
     mean += bin.shares[i] * ratio;
     squares += bin.shares[i] * ratio * ratio;
   }
+  if (!seen) return {bin.expected, bin.expected_error};
   const double spread = std::sqrt(std::max(0.0, squares - mean * mean));
   const double of_nodes =
       spread < 1e-12 * std::abs(mean) ? 0 : spread / std::sqrt(double(bin.nodes.size()));
-  return {bin.expected * mean,
-          std::hypot(bin.expected * of_nodes, bin.expected_error * mean), of_nodes > 0};
+  return {bin.expected * mean, std::hypot(bin.expected * of_nodes, bin.expected_error * mean),
+          of_nodes > 0};
 }
 
 /// Standard normal under the prediction. @source Freeman, Tukey 1950: the roots of Poisson counts
@@ -112,6 +113,9 @@ void add_bins(const ViewEvidence& view, ViewObservations& out) {
       bin.edge = true;
       if (!view.strays.empty()) bin.judged = false;
     }
+    // Nodes that all fall beside the support show nothing of the bin.
+    bin.judged = bin.judged && std::any_of(bin.nodes.begin(), bin.nodes.end(),
+                                           [](const Place& p) { return p.base > 0; });
     out.bins.push_back(std::move(bin));
   }
 }
@@ -231,7 +235,6 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
     const double z = std::abs(log_residual(p, prediction(p.place, numbers))) / error_of(p);
     ++fit.tested;
     if (!(z <= kExactPull)) {
-      if (std::getenv("PL_TRACE")) std::fprintf(stderr, "  view %zu exact z %g ratio %g pred %g err %g x %g %g %g\n", view, z, p.ratio, prediction(p.place, numbers)/p.place.base, p.error, p.place.x[0], p.place.x[1], p.place.x[2]);
       if (++outliers > most) return fit;
     } else {
       fit.worst = std::max(fit.worst, z / kExactPull);
@@ -247,18 +250,18 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
   Pulls pulls;
   const double n = o.view->samples;
   double total = 0, variance = 0;
+  bool varies = false;
   for (const CountedBin& bin : o.bins) {
     const BinPrediction p = predict(bin, prediction, numbers);
     total += p.expected / n;
     variance += std::pow(std::max(0.0, p.error) / n, 2);
+    varies = varies || p.varies;
     if (!bin.judged || (bin.edge && p.varies)) continue;
     const double z = pull(bin, p);
     ++fit.tested;
-    if (!(std::abs(z) <= allowed) && std::getenv("PL_TRACE")) std::fprintf(stderr, "  view %zu bin z %g observed %g expected %g err %g\n", view, z, bin.observed, p.expected, p.error);
     if (!(std::abs(z) <= allowed)) return fit;
     pulls.add(z, p.expected);
   }
-  if (std::getenv("PL_TRACE")) std::fprintf(stderr, "  view %zu exact %zu bins %zu agree %d worst %g\n", view, o.exact.size(), o.bins.size(), int(pulls.agree(kLevel / double(views_.size()))), pulls.worst());
   if (!pulls.agree(kLevel / static_cast<double>(views_.size()))) return fit;
   fit.worst = std::max(fit.worst, pulls.worst() / allowed);
   if (o.judge_mass) {
@@ -267,8 +270,7 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
     const double error = mass.integral_error * total / std::max(mass.integral, 1e-300) +
                          mass.rejected_error + 4 * std::sqrt(variance) +
                          4 * std::sqrt(o.view->stray_share / n) + kMassTolerance +
-                         (numbers.empty() ? 0 : 4 / std::sqrt(n));
-    if (!(std::abs(missing) <= error) && std::getenv("PL_TRACE")) std::fprintf(stderr, "  view %zu mass missing %g error %g\n", view, missing, error);
+                         (numbers.empty() && !varies ? 0 : 4 / std::sqrt(n));
     if (!(std::abs(missing) <= error)) return fit;
   }
   fit.admissible = fit.tested > 0;
