@@ -176,12 +176,6 @@ std::vector<FaultyCase> mixtures() {
       }
     }
   };
-  ErasedBsdf reused = hidden(coated());
-  reused.sample = [](const Vec3& wo, const Uniforms& u) -> std::optional<BsdfRecord> {
-    auto r = u[0] < 0.4 ? Diffuse::sample(wo, u[0], u[1]) : RoughMirror{0.3}.sample(wo, u[0], u[1]);
-    if (r) r->weight = {}, r->pdf = kNotApplicable;
-    return r;
-  };
   return {of("probabilities missing, lobes shown", K::lobe_probability, without(translucent)),
           of("probabilities missing by side", K::lobe_probability, hidden(without(translucent))),
           of("probabilities missing, hidden", K::lobe_probability, hidden(without(coated()))),
@@ -192,8 +186,7 @@ std::vector<FaultyCase> mixtures() {
           of("G1 missing in one lobe", K::masking,
              coated_with_specular_times([](auto& o, auto&) { return 1 / g1(o, 0.3); })),
           of("samples below the horizon", K::not_rejected, kept, from({30, 60, 80})),
-          of("drawn again", K::not_rejected, again, from({30, 60, 80})),
-          of("number reused", K::numbers_reused, reused)};
+          of("drawn again", K::not_rejected, again, from({30, 60, 80}))};
 }
 
 std::vector<FaultyCase> arguments() {
@@ -342,6 +335,14 @@ std::vector<FaultyCase> points() {
                               w[2] > 0 && std::abs(w[0]) <= w[2] && std::abs(w[1]) <= w[2];
                           return hits ? 0.25 : 0.0;
                         })));
+  // Two lights in a row: which one, and where on it, by the same number.
+  list.push_back(of("number reused", K::numbers_reused,
+                    make_pair<Vec3>(
+                        "", Domain::unit_square(),
+                        [](double u, double v) {
+                          return Vec3{u < 0.3 ? u / 2 : 0.5 + u / 2, v, 0};
+                        },
+                        [](const Vec3& x) { return x[0] < 0.5 ? 0.6 : 1.4; })));
   list.push_back(of("clamped", K::on_a_line,
                     directions(
                         "",

@@ -184,6 +184,18 @@ Observations Observations::without_mass() const {
   return less;
 }
 
+Observations Observations::inverted() const {
+  Observations turned = *this;
+  for (ViewObservations& v : turned.views_) {
+    v.bins.clear();
+    for (ExactPoint& p : v.exact) {
+      p.place.base *= p.ratio;
+      p.ratio = 1 / p.ratio;
+    }
+  }
+  return turned;
+}
+
 void Observations::prepare() {
   exact_ = bins_ = 0;
   std::vector<double> contradiction;

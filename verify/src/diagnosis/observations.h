@@ -58,6 +58,9 @@ class Observations {
   Observations without_strays() const;
   Observations without_mass() const;
 
+  /// The exact ratios upside down: what was above is what a factor is missing from.
+  Observations inverted() const;
+
   const std::vector<ViewObservations>& views() const { return views_; }
   bool empty() const { return exact_ + bins_ == 0; }
   std::size_t exact() const { return exact_; }
