@@ -33,9 +33,9 @@ Pair distance_or_surface(T sigma, T most, int fault = 0) {
   pair.numbers = 1;
   pair.epsilon = std::is_same_v<T, float> ? 0x1p-24 : 0x1p-53;
   const auto density = [=](T t) { return t < most ? sigma * std::exp(-sigma * t) : T(0); };
-  pair.sample = [=](const verify::Uniforms& u) -> std::optional<verify::PairSample> {
+  pair.sample = [=](const verify::Uniforms& u) -> std::optional<verify::SampleRecord> {
     const T t = -std::log1p(-static_cast<T>(u[0])) / sigma;
-    verify::PairSample s;
+    verify::SampleRecord s;
     if (t < most) {
       s.x = {static_cast<double>(t), 0, 0};
       s.pdf = static_cast<double>(density(t));

@@ -156,10 +156,10 @@ Pair recorded_pair_of(std::string name, Domain domain, Technique technique) {
   pair.name = std::move(name);
   pair.domain = std::move(domain);
   pair.epsilon = std::is_same_v<T, float> ? 0x1p-24 : 0x1p-53;
-  pair.sample = [t](const verify::Uniforms& u) -> std::optional<verify::PairSample> {
+  pair.sample = [t](const verify::Uniforms& u) -> std::optional<verify::SampleRecord> {
     const std::optional<Record<Point, T>> r = t->sample(static_cast<T>(u[0]), static_cast<T>(u[1]));
     if (!r) return std::nullopt;
-    verify::PairSample s;
+    verify::SampleRecord s;
     s.x = verify::to_point(r->x);
     s.pdf = static_cast<double>(r->pdf);
     s.weight.count = 1;
@@ -180,7 +180,8 @@ Pair recorded_pair_of(std::string name, Domain domain, Technique technique) {
 
 /// Maps of at least 64×32 texels break along 100 and more lines. The one place where they say so.
 inline Pair on_map_domain(Pair pair, int width, int height) {
-  static_cast<void>(width), static_cast<void>(height);
+  pair.domain = Domain::equirectangular(static_cast<std::size_t>(width),
+                                        static_cast<std::size_t>(height));
   return pair;
 }
 

@@ -141,11 +141,10 @@ class Reciprocity {
   }
 
   void add_evidence(const BothWays& p) {
-    constexpr std::size_t kEnough = 2'000;
+    constexpr std::size_t kEnough = 300;  // each costs some 400 evaluations of f
     const double ratio = p.there[0] / p.back[0];
     if (!(ratio > 0) || !std::isfinite(ratio) || seen_.size() >= kEnough) return;
-    const double error = stated_tolerance(bsdf_.epsilon) +
-                         kRoundingsPerUlp * spread(p, 0) / std::min(p.there[0], p.back[0]);
+    const double error = stated_tolerance(bsdf_.epsilon) + spread(p, 0) / std::min(p.there[0], p.back[0]);
     seen_.push_back({p.wo, p.wi, ratio, std::isfinite(error) ? error : 1.0});
   }
 

@@ -91,6 +91,26 @@ void add_mirrored_directions(std::vector<Hypothesis>& list, const Blame& blame, 
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
+/// Turned around the normal (or any axis of a map) by an angle of its own.
+void add_turned(std::vector<Hypothesis>& list, const Blame& blame, const Asked& ask) {
+  Hypothesis h;
+  h.kind = CauseKind::tangent_frame;
+  h.complexity = 1;
+  h.starts = {{0.1},  {0.4},  {0.8},  {1.3},  {2.0},  {2.8},
+              {-0.1}, {-0.4}, {-0.8}, {-1.3}, {-2.0}, {-2.8}};
+  h.prediction = [ask](const Place& p, std::span<const double> n) {
+    const double c = std::cos(n[0]), s = std::sin(n[0]);
+    return ask(p, {c * p.x[0] - s * p.x[1], s * p.x[0] + c * p.x[1], p.x[2]});
+  };
+  h.words = [blame](std::span<const double> n) {
+    return "sample and " + blame.function + " are in tangent frames that are turned by " +
+           number(n[0] * 180 / std::numbers::pi) + "° against each other";
+  };
+  list.push_back(h);
+  h.per_view = true;
+  list.push_back(std::move(h));
+}
+
 /// A density that moves with the square: per area of the domain, where the chart stretches.
 Hypothesis on_square(CauseKind kind, double complexity, const Asked& ask,
                      std::function<Point2(const Point2&)> moved, std::string words) {
@@ -313,7 +333,11 @@ std::vector<Hypothesis> argument_hypotheses(const ReportEvidence& evidence, cons
     const bool bsdf = view.bsdf != nullptr && has_wo(view);
     if (bsdf) add_swapped(list, blame, of_value);
     add_mirrored_directions(list, blame, ask);
-    if (!bsdf) add_shifted_directions(list, blame, ask);
+    if (bsdf) {
+      add_turned(list, blame, ask);
+    } else {
+      add_shifted_directions(list, blame, ask);
+    }
   } else {
     add_mirrored_points(list, domain, blame, ask);
     add_shifted_points(list, domain, blame, ask);

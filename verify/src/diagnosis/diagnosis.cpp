@@ -124,12 +124,12 @@ class Diagnosis {
   std::string which_function(const Explanation& e) const {
     const Observations record = Observations::of_series(evidence_, RatioKind::record_over_pdf);
     if (record.empty()) return {};
-    const auto numbers = [&e](std::size_t v) { return std::span<const double>(e.numbers[v]); };
     if (record.judge(kAsStated).admissible) return " (the record states the same)";
-    if (record.judge(e.hypothesis->prediction, numbers).admissible) {
-      return " (the pdf in the record is right)";
+    for (std::size_t v = 0; v < record.views().size(); ++v) {
+      const Fit fit = record.judge_view(v, e.hypothesis->prediction, e.numbers[v]);
+      if (fit.tested > 0 && !fit.admissible) return {};
     }
-    return {};
+    return " (the pdf in the record is right)";
   }
 
   Cause of_density(const Observations& density) {
@@ -240,8 +240,6 @@ class Diagnosis {
   }
 
   Cause of_record(const Observations& record) {
-    const Blame blame{"the pdf in the record", "pdf()"};
-    // The ratio is the record over pdf(): what is missing from one is too many in the other.
     const Dependence on = dependence_of(evidence_, false);
     if (auto cause = of_chosen_lobe(record)) return *cause;
     if (on == Dependence::on_a_choice) {
@@ -251,8 +249,19 @@ class Diagnosis {
               {},
               CauseKind::none};
     }
-    const auto all = all_hypotheses(evidence_, {"pdf()", "the pdf in the record"}, record, false);
-    Cause cause = from(explain(record, all));
+    const Blame blame{"the pdf in the record", "pdf()"};
+    const Observations inverted = record.inverted();
+    std::vector<Hypothesis> factors;
+    for (auto&& list : {constant_hypotheses(evidence_, blame, inverted),
+                        factor_hypotheses(evidence_, blame, inverted),
+                        parametric_hypotheses(evidence_, blame, inverted)}) {
+      factors.insert(factors.end(), list.begin(), list.end());
+    }
+    Cause cause = from(explain(inverted, factors));
+    if (cause.kind == CauseKind::none) {
+      const auto others = argument_hypotheses(evidence_, {"the pdf in the record", "it"}, false);
+      cause = from(explain(record, others));
+    }
     const std::string right = "the pdf in the record is wrong: samples are as dense as pdf() says";
     if (cause.kind == CauseKind::none) {
       return {CauseKind::record_pdf, right, {}, CauseKind::none};

@@ -18,6 +18,7 @@ struct Factor {
   double rank = 1;
   /// What its lack and its excess are called, where not "factor … missing from".
   std::string lack = {}, excess = {};
+  bool alone = false;  ///< a constant: not with another, nor beside other factors
 };
 
 /// Where a factor counts: in a BSDF that reflects and transmits, often on one side only.
@@ -135,7 +136,7 @@ void add_of_points(std::vector<Factor>& list, const Domain& domain) {
   const std::string size = line ? "length" : "area";
   if (std::abs(extent - 1) > 1e-6) {
     list.push_back({size, CauseKind::distance_or_area, [extent](const Place&) { return extent; },
-                    -120, "", "1/" + size + " is missing from"});
+                    -120, "", "1/" + size + " is missing from", true});
   }
   const auto along = [&list](const char* name, std::size_t i, bool from_end, double power,
                              double rank) {
@@ -232,11 +233,6 @@ std::string missing(const Factor& f, double power, const Blame& blame) {
   return "factor " + amount + " too many in " + blame.function;
 }
 
-struct Term {
-  const Factor* factor;
-  double power;
-};
-
 double product(const std::vector<std::pair<Factor, double>>& terms, const Place& p) {
   double value = 1;
   for (const auto& [f, power] : terms) {
@@ -293,10 +289,11 @@ std::vector<Hypothesis> factor_hypotheses(const ReportEvidence& evidence, const 
   for (const Factor& f : factors) {
     for (const double power : kPowers) {
       list.push_back(hypothesis_of({{f, power}}, false, blame, error));
-      list.push_back(hypothesis_of({{f, power}}, true, blame, error));
+      if (!f.alone) list.push_back(hypothesis_of({{f, power}}, true, blame, error));
     }
   }
   for (std::size_t i = 0; i < factors.size(); ++i) {
+    if (factors[i].alone) continue;
     for (std::size_t j = i + 1; j < factors.size(); ++j) {
       for (const double a : {1.0, -1.0}) {
         for (const double b : {1.0, -1.0}) {

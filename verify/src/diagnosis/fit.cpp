@@ -42,13 +42,13 @@ class LeastSquares {
     return observations_.residuals(prediction_, p, view_, flatten);
   }
 
-  Numbers descend(Numbers p, bool flatten) const {
-    constexpr int kSteps = 40;
+  Numbers descend(Numbers p, bool flatten, int most) const {
+    constexpr double kGaveUp = 1e7;
     double damping = 1e-3;
     Numbers r = residuals(p, flatten);
     double cost = squares(r);
-    for (int step = 0; step < kSteps && damping < 1e12 && !r.empty(); ++step) {
-      const std::vector<Numbers> slopes = derivatives(p, flatten);
+    std::vector<Numbers> slopes = derivatives(p, flatten);
+    for (int step = 0; step < most && damping < kGaveUp && !r.empty(); ++step) {
       std::vector<Numbers> normal(p.size(), Numbers(p.size()));
       Numbers right(p.size());
       for (std::size_t i = 0; i < p.size(); ++i) {
@@ -65,14 +65,18 @@ class LeastSquares {
         moved[i] += p[i];
       }
       Numbers then = residuals(moved, flatten);
-      if (const double lower = squares(then); lower < cost) {
+      const double lower = squares(then);
+      if (lower < cost) {
+        const bool settled = lower > (1 - 1e-6) * cost || largest < 1e-14;
         p = std::move(moved);
         r = std::move(then);
         cost = lower;
-        damping /= 8;
-        if (largest < 1e-15) break;
+        damping /= 10;
+        if (settled) break;
+        slopes = derivatives(p, flatten);
       } else {
-        damping *= 8;
+        if (largest < 1e-14) break;
+        damping *= 10;
       }
     }
     return p;
@@ -115,7 +119,12 @@ std::vector<double> fit_parameters(const Observations& observations, const Predi
       best = start;
     }
   }
-  return problem.descend(problem.descend(std::move(best), true), false);
+  // What is not even near by then is not the cause, however well it could be fitted.
+  constexpr double kNear = 50;
+  best = problem.descend(std::move(best), true, 25);
+  const Numbers left = problem.residuals(best, true);
+  if (squares(left) > kNear * static_cast<double>(left.size())) return best;
+  return problem.descend(std::move(best), false, 25);
 }
 
 }  // namespace plumbline::verify

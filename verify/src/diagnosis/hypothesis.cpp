@@ -16,27 +16,32 @@ std::optional<Explanation> try_one(const Observations& observations, const Hypot
   e.hypothesis = &h;
   const std::size_t views = observations.views().size();
   e.numbers.resize(views);
-  double free = 0;
-  if (!h.starts.empty()) {
-    const double each = static_cast<double>(h.starts.front().size());
-    if (h.per_view) {
-      for (std::size_t v = 0; v < views; ++v) {
-        e.numbers[v] = fit_parameters(observations, h.prediction, h.starts, static_cast<int>(v));
-      }
-      free = each * static_cast<double>(std::max<std::size_t>(1, views));
-    } else {
-      const auto fitted = fit_parameters(observations, h.prediction, h.starts, -1);
-      std::fill(e.numbers.begin(), e.numbers.end(), fitted);
-      free = each;
+  double free = 0, tested = 0;
+  const bool fitted = !h.starts.empty();
+  std::vector<double> of_all;
+  if (fitted && !h.per_view) of_all = fit_parameters(observations, h.prediction, h.starts, -1);
+  for (const std::size_t v : observations.order()) {
+    e.numbers[v] = of_all;
+    const ViewObservations& view = observations.views()[v];
+    if (view.exact.empty() && view.bins.empty()) continue;
+    if (fitted && h.per_view) {
+      e.numbers[v] = fit_parameters(observations, h.prediction, h.starts, static_cast<int>(v));
+      free += static_cast<double>(h.starts.front().size());
     }
+    const Fit fit = observations.judge_view(v, h.prediction, e.numbers[v]);
+    if (!fit.admissible) return std::nullopt;
+    tested += static_cast<double>(fit.tested);
+    e.worst = std::max(e.worst, fit.worst);
   }
-  const Fit fit = observations.judge(
-      h.prediction, [&e](std::size_t v) { return std::span<const double>(e.numbers[v]); });
-  if (!fit.admissible) return std::nullopt;
+  if (tested == 0) return std::nullopt;
+  if (fitted && !h.per_view) free = static_cast<double>(h.starts.front().size());
+  // Views that show nothing have no numbers of their own: they take those of one that does.
+  for (auto& numbers : e.numbers) {
+    if (numbers.empty()) numbers = e.numbers[observations.order().front()];
+  }
   const std::optional<double> charge = h.charge ? h.charge(e.numbers) : 0.0;
   if (!charge) return std::nullopt;
   e.cost = kPerNumber * free + h.complexity + *charge;
-  e.worst = fit.worst;
   return e;
 }
 

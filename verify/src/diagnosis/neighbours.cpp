@@ -18,11 +18,12 @@ constexpr std::size_t kGroup = 8;
 
 struct Valued {
   Vec3 x{};
-  double logarithm = 0;
+  double logarithm = 0;  ///< of the ratio
+  double numerator = 0;  ///< the record's pdf
 };
 
 std::vector<Valued> valued_samples(const ViewEvidence& view, bool of_weight) {
-  constexpr int kSamples = 3000;
+  constexpr int kSamples = 12'000;
   Random random(kSeed, kStream);
   std::vector<Valued> out;
   for (int i = 0; i < kSamples; ++i) {
@@ -38,7 +39,8 @@ std::vector<Valued> valued_samples(const ViewEvidence& view, bool of_weight) {
                                 : 0;
       ratio = weight * pdf / value;
     }
-    if (ratio > 0 && std::isfinite(ratio)) out.push_back({s->x, std::log(ratio)});
+    if (ratio > 0 && std::isfinite(ratio))
+      out.push_back({s->x, std::log(ratio), s->pdf.value_or(kNotApplicable)});
   }
   return out;
 }
@@ -58,6 +60,27 @@ std::array<double, kGroup> group_around(const std::vector<Valued>& all, std::siz
   return values;
 }
 
+/// A good part of the records, and only a part, states the same multiple of cosθ, or the same
+/// number, though pdf() does not: one lobe's own density.
+bool states_one_lobe(const std::vector<Valued>& all, bool of_cosine) {
+  constexpr double kSame = 1e-6;
+  std::vector<double> logarithms;
+  for (const Valued& v : all) {
+    if (std::abs(v.logarithm) < kSame) continue;
+    const double c = of_cosine ? std::abs(v.x[2]) : 1;
+    if (c > 0 && v.numerator > 0) logarithms.push_back(std::log(v.numerator / c));
+  }
+  if (logarithms.size() < 100) return false;
+  std::sort(logarithms.begin(), logarithms.end());
+  std::size_t most = 0;
+  for (std::size_t i = 0, j = 0; i < logarithms.size(); ++i) {
+    while (logarithms[i] - logarithms[j] > kSame) ++j;
+    most = std::max(most, i - j + 1);
+  }
+  const double share = static_cast<double>(most) / static_cast<double>(logarithms.size());
+  return share > 0.03 && share < 0.97;
+}
+
 }  // namespace
 
 Dependence dependence_of(const ReportEvidence& evidence, bool of_weight) {
@@ -69,6 +92,10 @@ Dependence dependence_of(const ReportEvidence& evidence, bool of_weight) {
     if (v.pair->domain.dimension() == 0) continue;
     const std::vector<Valued> all = valued_samples(v, of_weight);
     if (all.size() < 4 * kGroups) continue;
+    if (!of_weight && v.pair->domain.directions() &&
+        (states_one_lobe(all, true) || states_one_lobe(all, false))) {
+      return Dependence::on_a_choice;
+    }
     double low = 1e300, high = -1e300, total = 0;
     for (const Valued& a : all) {
       low = std::min(low, a.logarithm);

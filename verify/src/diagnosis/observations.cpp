@@ -11,7 +11,7 @@ namespace plumbline::verify {
 namespace {
 
 constexpr std::size_t kExactPerView = 400;
-constexpr std::size_t kFittedPerView = 96;
+constexpr std::size_t kMostFitted = 240;  // of all views
 // A point at a fold of the map may give a wrong difference with a small error.
 constexpr double kFoldShare = 0.003;
 constexpr double kFolds = 2;
@@ -35,6 +35,7 @@ double error_of(const ExactPoint& p) { return p.error + kOwnRounding; }
 
 struct BinPrediction {
   double expected = 0, error = 0;
+  bool varies = false;
 };
 
 /// Mean of the prediction over the nodes, in units of the bin's expected count. The nodes stand for
@@ -42,17 +43,20 @@ struct BinPrediction {
 BinPrediction predict(const CountedBin& bin, const Prediction& prediction,
                       std::span<const double> parameters) {
   double mean = 0, squares = 0;
+  bool seen = false;
   for (std::size_t i = 0; i < bin.nodes.size(); ++i) {
     if (!(bin.nodes[i].base > 0)) continue;
+    seen = true;
     const double ratio = prediction(bin.nodes[i], parameters) / bin.nodes[i].base;
     mean += bin.shares[i] * ratio;
     squares += bin.shares[i] * ratio * ratio;
   }
+  if (!seen) return {bin.expected, bin.expected_error};
   const double spread = std::sqrt(std::max(0.0, squares - mean * mean));
   const double of_nodes =
       spread < 1e-12 * std::abs(mean) ? 0 : spread / std::sqrt(double(bin.nodes.size()));
-  return {bin.expected * mean,
-          std::hypot(0.5 * bin.expected * of_nodes, bin.expected_error * mean)};
+  return {bin.expected * mean, std::hypot(bin.expected * of_nodes, bin.expected_error * mean),
+          of_nodes > 0};
 }
 
 /// Standard normal under the prediction. @source Freeman, Tukey 1950: the roots of Poisson counts
@@ -105,7 +109,13 @@ void add_bins(const ViewEvidence& view, ViewObservations& out) {
     bin.shares = seen.shares;
     for (const Vec3& x : seen.nodes) {
       bin.nodes.push_back({&view, view.wo.value_or(Vec3{}), x, pdf_at(view, x)});
+      if (bin.nodes.back().base > 0) continue;
+      bin.edge = true;
+      if (!view.strays.empty()) bin.judged = false;
     }
+    // Nodes that all fall beside the support show nothing of the bin.
+    bin.judged = bin.judged && std::any_of(bin.nodes.begin(), bin.nodes.end(),
+                                           [](const Place& p) { return p.base > 0; });
     out.bins.push_back(std::move(bin));
   }
 }
@@ -144,7 +154,7 @@ Observations Observations::of_density(const ReportEvidence& evidence) {
     o.judge_strays = !view.strays.empty();
     all.views_.push_back(std::move(o));
   }
-  all.count();
+  all.prepare();
   return all;
 }
 
@@ -158,7 +168,7 @@ Observations Observations::of_series(const ReportEvidence& evidence, RatioKind k
     }
     all.views_.push_back(std::move(o));
   }
-  all.count();
+  all.prepare();
   return all;
 }
 
@@ -174,71 +184,106 @@ Observations Observations::without_mass() const {
   return less;
 }
 
-void Observations::count() {
+Observations Observations::inverted() const {
+  Observations turned = *this;
+  for (ViewObservations& v : turned.views_) {
+    v.bins.clear();
+    for (ExactPoint& p : v.exact) {
+      p.place.base *= p.ratio;
+      p.ratio = 1 / p.ratio;
+    }
+  }
+  return turned;
+}
+
+void Observations::prepare() {
   exact_ = bins_ = 0;
+  std::vector<double> contradiction;
   for (const ViewObservations& v : views_) {
     exact_ += v.exact.size();
     bins_ += v.bins.size();
+    double sum = 0;
+    for (const ExactPoint& p : v.exact) sum += std::min(1.0, std::abs(std::log(p.ratio)));
+    if (!v.exact.empty()) sum /= static_cast<double>(v.exact.size());
+    double of_bins = 0;
+    for (const CountedBin& b : v.bins) {
+      if (!b.judged) continue;
+      of_bins += std::abs(std::sqrt(b.observed) - std::sqrt(b.expected)) / std::sqrt(b.expected);
+    }
+    if (!v.bins.empty()) sum += of_bins / static_cast<double>(v.bins.size());
+    contradiction.push_back(sum);
   }
+  order_.resize(views_.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+    return contradiction[a] > contradiction[b];
+  });
 }
 
 Fit Observations::judge(const Prediction& prediction, std::span<const double> parameters) const {
-  return judge(prediction, [parameters](std::size_t) { return parameters; });
+  Fit all;
+  for (const std::size_t v : order_) {
+    const Fit one = judge_view(v, prediction, parameters);
+    all.tested += one.tested;
+    all.worst = std::max(all.worst, one.worst);
+    if (one.tested > 0 && !one.admissible) return all;
+  }
+  all.admissible = all.tested > 0;
+  return all;
 }
 
-Fit Observations::judge(
-    const Prediction& prediction,
-    const std::function<std::span<const double>(std::size_t view)>& parameters) const {
+Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
+                             std::span<const double> numbers) const {
   Fit fit;
-  // Twice the level's quantile for exact points is too strict a word for a bound: theirs are not
-  // normal, and four times an error of differences is what the Jacobian check itself allows.
+  // Errors of exact points are bounds rather than deviations; four times that of differences is
+  // what the Jacobian check itself allows.
   constexpr double kExactPull = 4;
-  const double residuals = std::max(1.0, static_cast<double>(bins_));
-  const double allowed = normal_quantile(kLevel / 2 / residuals);
-  const double views = std::max<double>(1, static_cast<double>(views_.size()));
+  const double allowed = normal_quantile(kLevel / 2 / std::max(1.0, static_cast<double>(bins_)));
+  const ViewObservations& o = views_[view];
+  const double exact = static_cast<double>(o.exact.size());
+  const double most = o.exact.size() < 100 ? 0 : std::max(kFolds, kFoldShare * exact);
   double outliers = 0;
-  const double most = exact_ < 100 ? 0 : std::max(kFolds, kFoldShare * double(exact_));
-  for (std::size_t v = 0; v < views_.size(); ++v) {
-    const ViewObservations& o = views_[v];
-    const auto numbers = parameters(v);
-    for (const ExactPoint& p : o.exact) {
-      const double z = std::abs(log_residual(p, prediction(p.place, numbers))) / error_of(p);
-      ++fit.tested;
-      if (!(z <= kExactPull)) {
-        if (++outliers > most) return fit;
-      } else {
-        fit.worst = std::max(fit.worst, z / kExactPull);
-      }
+  for (const ExactPoint& p : o.exact) {
+    const double z = std::abs(log_residual(p, prediction(p.place, numbers))) / error_of(p);
+    ++fit.tested;
+    if (!(z <= kExactPull)) {
+      if (++outliers > most) return fit;
+    } else {
+      fit.worst = std::max(fit.worst, z / kExactPull);
     }
-    if (o.judge_strays) {
-      double explained = 0;
-      for (const Vec3& x : o.view->strays) {
-        explained += prediction({o.view, o.view->wo.value_or(Vec3{}), x, 0}, numbers) > 0 ? 1 : 0;
-      }
-      if (explained < 0.98 * static_cast<double>(o.view->strays.size())) return fit;
+  }
+  if (o.judge_strays) {
+    double explained = 0;
+    for (const Vec3& x : o.view->strays) {
+      explained += prediction({o.view, o.view->wo.value_or(Vec3{}), x, 0}, numbers) > 0 ? 1 : 0;
     }
-    Pulls pulls;
-    double n = o.view->samples, total = 0, variance = 0;
-    for (const CountedBin& bin : o.bins) {
-      const BinPrediction p = predict(bin, prediction, numbers);
-      const double z = pull(bin, p);
-      ++fit.tested;
-      if (!(std::abs(z) <= allowed)) return fit;
-      pulls.add(z, p.expected);
-      total += p.expected / n;
-      variance += std::pow(std::max(0.0, p.error) / n, 2);
-    }
-    if (!pulls.agree(kLevel / views)) return fit;
-    fit.worst = std::max(fit.worst, pulls.worst() / allowed);
-    if (o.judge_mass) {
-      const MassSeen& mass = *o.view->mass;
-      const double missing = total + mass.atoms + mass.rejected + o.view->stray_share - 1;
-      const double error = mass.integral_error * total / std::max(mass.integral, 1e-300) +
-                           mass.rejected_error + 4 * std::sqrt(variance) +
-                           4 * std::sqrt(o.view->stray_share / n) + kMassTolerance +
-                           (numbers.empty() ? 0 : 4 / std::sqrt(n));
-      if (!(std::abs(missing) <= error)) return fit;
-    }
+    if (explained < 0.98 * static_cast<double>(o.view->strays.size())) return fit;
+  }
+  Pulls pulls;
+  const double n = o.view->samples;
+  double total = 0, variance = 0;
+  bool varies = false;
+  for (const CountedBin& bin : o.bins) {
+    const BinPrediction p = predict(bin, prediction, numbers);
+    total += p.expected / n;
+    variance += std::pow(std::max(0.0, p.error) / n, 2);
+    varies = varies || p.varies;
+    if (!bin.judged || (bin.edge && p.varies)) continue;
+    const double z = pull(bin, p);
+    ++fit.tested;
+    if (!(std::abs(z) <= allowed)) return fit;
+    pulls.add(z, p.expected);
+  }
+  if (!pulls.agree(kLevel / static_cast<double>(views_.size()))) return fit;
+  fit.worst = std::max(fit.worst, pulls.worst() / allowed);
+  if (o.judge_mass) {
+    const MassSeen& mass = *o.view->mass;
+    const double missing = total + mass.atoms + mass.rejected + o.view->stray_share - 1;
+    const double error = mass.integral_error * total / std::max(mass.integral, 1e-300) +
+                         mass.rejected_error + 4 * std::sqrt(variance) +
+                         4 * std::sqrt(o.view->stray_share / n) + kMassTolerance +
+                         (numbers.empty() && !varies ? 0 : 4 / std::sqrt(n));
+    if (!(std::abs(missing) <= error)) return fit;
   }
   fit.admissible = fit.tested > 0;
   return fit;
@@ -249,16 +294,24 @@ std::vector<double> Observations::residuals(const Prediction& prediction,
                                             bool flatten) const {
   constexpr double kFlat = 0.01;
   std::vector<double> out;
+  std::size_t views = 0;
+  for (const ViewObservations& o : views_) {
+    if (o.exact.size() + o.bins.size() > 0) ++views;
+  }
+  const std::size_t each =
+      view >= 0 ? kMostFitted / 4
+                : std::max<std::size_t>(16, kMostFitted / std::max(views, std::size_t{1}));
   for (std::size_t v = 0; v < views_.size(); ++v) {
     if (view >= 0 && v != static_cast<std::size_t>(view)) continue;
     const ViewObservations& o = views_[v];
-    const std::size_t step = 2 * std::max<std::size_t>(1, o.exact.size() / (2 * kFittedPerView));
+    const std::size_t step = 2 * std::max<std::size_t>(1, o.exact.size() / (2 * each));
     for (std::size_t i = 0; i < o.exact.size(); i += step) {
       const double r = log_residual(o.exact[i], prediction(o.exact[i].place, parameters));
       out.push_back(r / (flatten ? std::max(kFlat, error_of(o.exact[i])) : error_of(o.exact[i])));
     }
-    const std::size_t bin_step = 2 * std::max<std::size_t>(1, o.bins.size() / (2 * kFittedPerView));
+    const std::size_t bin_step = 2 * std::max<std::size_t>(1, o.bins.size() / (2 * each));
     for (std::size_t i = 0; i < o.bins.size(); i += bin_step) {
+      if (!o.bins[i].judged || o.bins[i].edge) continue;
       out.push_back(pull(o.bins[i], predict(o.bins[i], prediction, parameters)));
     }
   }

@@ -25,6 +25,8 @@ struct CountedBin {
   std::vector<Place> nodes;
   std::vector<double> shares;
   double observed = 0, expected = 0, expected_error = 0;
+  bool judged = true;  ///< false: strays lie in it as well, it counts for the mass only
+  bool edge = false;   ///< the pdf is 0 in a part of it: nodes say little of a ratio that varies
 };
 
 /// How well a prediction does: the largest residual in units of what is allowed for it.
@@ -56,6 +58,9 @@ class Observations {
   Observations without_strays() const;
   Observations without_mass() const;
 
+  /// The exact ratios upside down: what was above is what a factor is missing from.
+  Observations inverted() const;
+
   const std::vector<ViewObservations>& views() const { return views_; }
   bool empty() const { return exact_ + bins_ == 0; }
   std::size_t exact() const { return exact_; }
@@ -63,10 +68,14 @@ class Observations {
 
   /// Whether every residual lies within its own error, at a level that accounts for their number.
   ///
-  /// @param parameters  those of the view that is asked about
-  Fit judge(const Prediction& prediction,
-            const std::function<std::span<const double>(std::size_t view)>& parameters) const;
   Fit judge(const Prediction& prediction, std::span<const double> parameters = {}) const;
+
+  /// The same of one view.
+  Fit judge_view(std::size_t view, const Prediction& prediction,
+                 std::span<const double> parameters) const;
+
+  /// Views, those that contradict what is stated most first: most hypotheses die there.
+  const std::vector<std::size_t>& order() const { return order_; }
 
   /// Residuals in units of their errors, of every other point: what free numbers are fitted on.
   ///
@@ -76,9 +85,10 @@ class Observations {
                                 int view, bool flatten) const;
 
  private:
-  void count();
+  void prepare();
 
   std::vector<ViewObservations> views_;
+  std::vector<std::size_t> order_;
   std::size_t exact_ = 0, bins_ = 0;
 };
 

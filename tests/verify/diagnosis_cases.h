@@ -1,0 +1,68 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <plumbline/verify/bsdf.h>
+#include <plumbline/verify/pair.h>
+
+#include "bsdfs/bsdf_checks.h"
+#include "correct_pairs.h"
+#include "diagnosis/diagnosis.h"
+#include "pairs/battery.h"
+
+/// Faults put on correct pairs, with what the diagnosis has to name.
+namespace plumbline::verify {
+
+struct FaultyCase {
+  std::string name;
+  CauseKind right = CauseKind::none;
+  std::function<Cause(std::uint64_t seed)> run;
+};
+
+inline std::vector<Vec3> looked_from(const std::vector<double>& degrees, bool back) {
+  std::vector<Vec3> directions;
+  double phi = 0.3;
+  for (const double d : degrees) {
+    const double theta = d * std::numbers::pi / 180;
+    phi += 2.1;
+    for (const double side : {1.0, -1.0}) {
+      if (side < 0 && !back) continue;
+      directions.push_back({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                            side * std::cos(theta)});
+    }
+  }
+  return directions;
+}
+
+/// What check_bsdf would name, as a kind.
+inline Cause cause_of(const ErasedBsdf& bsdf, const BsdfOptions& options) {
+  ReportEvidence evidence;
+  std::deque<SamplingPair> pairs;
+  std::uint64_t seed = options.contract.seed;
+  for (const Vec3& wo : looked_from(options.angles, options.back)) {
+    ContractOptions contract = options.contract;
+    contract.seed = seed += 17;
+    PairOutcome outcome =
+        judge_pair(pairs.emplace_back(bsdf_pair("", bsdf, wo, options)), contract);
+    outcome.view.wo = wo;
+    outcome.view.bsdf = &bsdf;
+    outcome.view.eta = options.eta;
+    evidence.views.push_back(std::move(outcome.view));
+    if (options.conserves_energy) {
+      evidence.albedos.push_back(albedo_seen(check_energy("", bsdf, wo, options), wo, options));
+    }
+  }
+  if (options.reciprocal) evidence.reciprocity = judge_reciprocity("", bsdf, options).pairs;
+  return diagnose(evidence);
+}
+
+inline Cause cause_of(const SamplingPair& pair, std::uint64_t seed) {
+  ContractOptions options;
+  options.seed = seed;
+  return diagnose({{judge_pair(pair, options).view}, {}, {}});
+}
+
+}  // namespace plumbline::verify
