@@ -93,7 +93,7 @@ Worst walk(const Example& example, int points_per_direction) {
 
 verify::CheckResult result_of(const Example& example, const Worst& worst) {
   verify::CheckResult result;
-  result.check = "jacobian";
+  result.kind = verify::CheckKind::jacobian;
   result.subject = example.name + "/jacobian";
   result.verdict = worst.error <= kTolerance ? verify::Verdict::pass : verify::Verdict::fail;
   result.estimate = 1 + worst.error;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <plumbline/verify/bsdf.h>
+#include <plumbline/verify/detail/stopwatch.h>
 
 #include "diagnosis/asymmetry_diagnosis.h"
 #include "pairs/binned_pair.h"
@@ -28,10 +29,10 @@ Vec3 random_direction(Random& random) {
 /// η² of the medium that a direction points into.
 double eta_squared(const Vec3& w, double eta) { return w[2] < 0 ? eta * eta : 1; }
 
-CheckResult result_of(const char* check, const std::string& name, const ContractOptions& options) {
+CheckResult result_of(CheckKind kind, const std::string& name, const ContractOptions& options) {
   CheckResult r;
-  r.check = check;
-  r.subject = name + "/" + check;
+  r.kind = kind;
+  r.subject = name + "/" + std::string(to_string(kind));
   r.seed = options.seed;
   return r;
 }
@@ -56,7 +57,9 @@ bool equal_up_to_rounding(double a, double b, double epsilon, const Vec3& w, con
 class Reciprocity {
  public:
   Reciprocity(const std::string& name, const ErasedBsdf& bsdf, const BsdfOptions& options)
-      : bsdf_(bsdf), options_(options), result_(result_of("reciprocity", name, options.contract)) {}
+      : bsdf_(bsdf),
+        options_(options),
+        result_(result_of(CheckKind::reciprocity, name, options.contract)) {}
 
   CheckResult run() {
     Random random(options_.contract.seed, 5);
@@ -76,6 +79,7 @@ class Reciprocity {
       result_.reason += " (" + number(std::uint64_t(failed_)) + " of " +
                         number(std::uint64_t(pairs_)) + " pairs fail)";
     }
+    result_.seconds = watch_.seconds();
     return result_;
   }
 
@@ -104,6 +108,7 @@ class Reciprocity {
     }
   }
 
+  const Stopwatch watch_;
   const ErasedBsdf& bsdf_;
   const BsdfOptions& options_;
   CheckResult result_;
@@ -158,6 +163,7 @@ CheckResult check_reciprocity(const std::string& name, const ErasedBsdf& bsdf,
 
 CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const Vec3& wo,
                          const BsdfOptions& options) {
+  const Stopwatch watch;
   const SamplingPair pair = bsdf_pair(name, bsdf, wo, options);
   const std::uint64_t seed = options.contract.seed;
   const std::size_t channel = options.albedo ? 0 : brightest_channel(pair, seed);
@@ -169,36 +175,41 @@ CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const 
                                                         options.energy_tolerance / 20, seed);
   const double atoms = atoms_albedo(pair, wo, options.eta, channel, seed);
 
-  CheckResult r = result_of("energy", name, options.contract);
-  r.estimate = integral.total + atoms;
-  r.reference = options.albedo ? options.albedo(wo) : 1.0;
-  r.tolerance = options.energy_tolerance;
-  r.interval_low = r.estimate - integral.total_error;
-  r.interval_high = r.estimate + integral.total_error;
+  CheckResult r = result_of(CheckKind::energy, name, options.contract);
+  const double albedo = integral.total + atoms;
+  const double reference = options.albedo ? options.albedo(wo) : 1.0;
+  const double tolerance = options.energy_tolerance;
+  r.estimate = albedo;
+  r.reference = reference;
+  r.tolerance = tolerance;
+  r.interval = {albedo - integral.total_error, albedo + integral.total_error};
   r.leaned_on = "error estimate of the cubature";
-  r.figures = {{"from atoms", atoms}, {"error of the integral", integral.total_error}};
-  const double excess =
-      options.albedo ? std::abs(r.estimate - r.reference) : r.estimate - r.reference;
-  r.bound = std::max(0.0, excess + integral.total_error);
-  if (!(excess - integral.total_error <= r.tolerance)) {
+  r.figures = {{Figure::albedo_of_atoms, atoms}, {Figure::integral_error, integral.total_error}};
+  const double excess = options.albedo ? std::abs(albedo - reference) : albedo - reference;
+  const double bound = std::max(0.0, excess + integral.total_error);
+  r.bound = bound;
+  if (!(excess - integral.total_error <= tolerance)) {
     r.verdict = Verdict::fail;
-    r.reason = "the albedo is " + number(r.estimate) +
-               (options.albedo ? ", it should be " + number(r.reference) : ", more than 1");
-  } else if (r.bound <= r.tolerance) {
+    r.reason = "the albedo is " + number(albedo) +
+               (options.albedo ? ", it should be " + number(reference) : ", more than 1");
+  } else if (bound <= tolerance) {
     r.verdict = Verdict::pass;
   } else {
     r.reason = "the albedo is known to " + number(integral.total_error) + " only";
   }
+  r.seconds = watch.seconds();
   return r;
 }
 
 CheckResult check_atoms(const std::string& name, const ErasedBsdf& bsdf, const Vec3& wo,
                         const BsdfOptions& options) {
+  const Stopwatch watch;
   const SamplingPair pair = bsdf_pair(name, bsdf, wo, options);
   Random random(options.contract.seed, 8);
-  CheckResult r = result_of("atoms", name, options.contract);
+  CheckResult r = result_of(CheckKind::atoms, name, options.contract);
   r.reference = 0;
-  r.tolerance = 64 * bsdf.epsilon;
+  const double tolerance = 64 * bsdf.epsilon;
+  r.tolerance = tolerance;
   r.leaned_on = "laws of reflection and refraction";
   double worst = 0;
   for (int i = 0; i < kAtomProbes; ++i) {
@@ -208,13 +219,14 @@ CheckResult check_atoms(const std::string& name, const ErasedBsdf& bsdf, const V
     const double distance = distance_from_law(wo, s->x, options.eta);
     if (distance <= worst) continue;
     worst = distance;
-    if (!(distance <= r.tolerance)) {
+    if (!(distance <= tolerance)) {
       r.reason = "an atom at " + place(s->x) + " is " + number(distance) +
                  " from where the laws of reflection and refraction put it";
     }
   }
   r.estimate = r.bound = worst;
-  r.verdict = worst <= r.tolerance ? Verdict::pass : Verdict::fail;
+  r.verdict = worst <= tolerance ? Verdict::pass : Verdict::fail;
+  r.seconds = watch.seconds();
   return r;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -58,12 +59,8 @@ BsdfOptions for_view(BsdfOptions options, std::size_t view) {
 }
 
 bool saw_atoms(const std::vector<CheckResult>& results) {
-  for (const CheckResult& r : results) {
-    for (const auto& [name, value] : r.figures) {
-      if (name == "atoms" && value > 0) return true;
-    }
-  }
-  return false;
+  return std::any_of(results.begin(), results.end(),
+                     [](const CheckResult& r) { return r.figure(Figure::atoms).value_or(0) > 0; });
 }
 
 bool gives_samples(const SamplingPair& pair, std::uint64_t seed) {
@@ -79,7 +76,7 @@ bool gives_samples(const SamplingPair& pair, std::uint64_t seed) {
 /// a convention that was not stated.
 CheckResult black_everywhere(const std::string& name, const BsdfOptions& options) {
   CheckResult r;
-  r.check = "samples";
+  r.kind = CheckKind::samples;
   r.subject = name + "/samples";
   r.seed = options.contract.seed;
   r.reason =
@@ -90,9 +87,8 @@ CheckResult black_everywhere(const std::string& name, const BsdfOptions& options
 
 }  // namespace
 
-std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& bsdf,
-                                    const BsdfOptions& options) {
-  std::vector<CheckResult> all;
+Report check_bsdf(const std::string& name, const ErasedBsdf& bsdf, const BsdfOptions& options) {
+  Report all;
   ConstantByView constants;
   const std::vector<View> views = views_of(options);
   bool black = true;
@@ -111,11 +107,11 @@ std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& b
     if (saw_atoms(results)) results.push_back(check_atoms(subject, bsdf, view.wo, here));
     for (CheckResult& r : results) {
       if (!r.as_expected()) r.reason += "; wo = " + place(view.wo) + ", z the normal";
-      all.push_back(std::move(r));
+      all.results.push_back(std::move(r));
     }
   }
-  if (options.reciprocal) all.push_back(check_reciprocity(name, bsdf, options));
-  if (black) all.push_back(black_everywhere(name, options));
+  if (options.reciprocal) all.results.push_back(check_reciprocity(name, bsdf, options));
+  if (black) all.results.push_back(black_everywhere(name, options));
   const std::string of_view = constants.diagnosis();
   for (CheckResult& r : all) {
     if (!of_view.empty() && !r.diagnosis.empty()) r.diagnosis = of_view;

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include <plumbline/verify/detail/stopwatch.h>
 #include <plumbline/verify/pair.h>
 
 #include "diagnosis/constant_diagnosis.h"
@@ -67,10 +68,14 @@ PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options)
   if (jacobian.result.verdict == Verdict::fail) cause.consider(pair, jacobian.evidence);
   results.push_back(std::move(jacobian.result));
 
+  Stopwatch watch;
   BinnedPair binned(pair, options.finest_bins, options.mass_tolerance / 2, options.seed);
   const RejectedShare rejected = measure_rejected(pair, options.seed);
+  const double integration = watch.lap();
   CheckResult chi_square = run_chi_square(options, binned, rejected);
+  chi_square.seconds = watch.lap();
   results.push_back(judge_integral(options, binned, rejected));
+  results.back().seconds = integration + watch.lap();
   if (chi_square.verdict == Verdict::fail) cause.consider(pair, bin_evidence(binned));
   results.push_back(std::move(chi_square));
 
@@ -80,7 +85,7 @@ PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options)
   return {std::move(results), cause.best()};
 }
 
-std::vector<CheckResult> check_pair(const SamplingPair& pair, const ContractOptions& options) {
+Report check_pair(const SamplingPair& pair, const ContractOptions& options) {
   return judge_pair(pair, options).results;
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include <plumbline/verify/detail/stopwatch.h>
+
 #include "distributions.h"
 #include "text.h"
 
@@ -118,20 +120,20 @@ const LevelTest& ChiSquareLook::worst() const {
 CheckResult ChiSquareLook::result() const {
   CheckResult r;
   const BinCounts& counts = pair_.counts();
-  r.check = "chi_square";
+  r.kind = CheckKind::chi_square;
   r.samples = counts.drawn;
   r.tolerance = options_.deviation;
   r.bound = bound_;
   r.detectable = detectable_;
   r.p_value = std::min(1.0, worst().p_value * static_cast<double>(levels_.size()));
   r.leaned_on = "certified bin integrals";
-  r.figures = {{"integral of the pdf", pair_.expected().total},
-               {"error of the integral", pair_.expected().total_error},
-               {"rejected", static_cast<double>(counts.rejected)},
-               {"atoms", static_cast<double>(counts.atoms.size())},
-               {"chi-square", worst().statistic},
-               {"degrees of freedom", worst().degrees},
-               {"bins", std::exp2(worst().depth)}};
+  r.figures = {{Figure::integral_of_pdf, pair_.expected().total},
+               {Figure::integral_error, pair_.expected().total_error},
+               {Figure::rejected, static_cast<double>(counts.rejected)},
+               {Figure::atoms, static_cast<double>(counts.atoms.size())},
+               {Figure::chi_square, worst().statistic},
+               {Figure::degrees_of_freedom, worst().degrees},
+               {Figure::bins, std::exp2(worst().depth)}};
   judge(r);
   return r;
 }
@@ -193,8 +195,11 @@ CheckResult check_chi_square(const SamplingPair& pair, const ContractOptions& op
     throw std::invalid_argument("chi-square check '" + pair.name +
                                 "': needs at least 2 bins and a positive deviation to exclude");
   }
+  const Stopwatch watch;
   BinnedPair binned(pair, options.finest_bins, options.mass_tolerance / 2, options.seed);
-  return run_chi_square(options, binned, measure_rejected(pair, options.seed));
+  CheckResult result = run_chi_square(options, binned, measure_rejected(pair, options.seed));
+  result.seconds = watch.seconds();
+  return result;
 }
 
 }  // namespace plumbline::verify

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <plumbline/verify/detail/stopwatch.h>
+
 #include "text.h"
 
 namespace plumbline::verify {
@@ -18,28 +20,28 @@ CheckResult judge_integral(const ContractOptions& options, const BinnedPair& bin
   const MassBalance mass = balance_mass(binned, rejected, options.budget.fail_level());
   const double tolerance = options.mass_tolerance + binned.rounding();
   CheckResult r;
-  r.check = "integral";
+  r.kind = CheckKind::integral;
   r.subject = binned.pair().name + "/integral";
   r.seed = options.seed;
-  r.estimate = 1 + mass.excess();
+  const double sum = 1 + mass.excess(), bound = std::abs(mass.excess()) + mass.error();
+  r.estimate = sum;
   r.reference = 1;
   r.tolerance = tolerance;
-  r.bound = std::abs(mass.excess()) + mass.error();
+  r.bound = bound;
   r.detectable = tolerance + 2 * mass.error();
-  r.interval_low = r.estimate - mass.error();
-  r.interval_high = r.estimate + mass.error();
+  r.interval = {sum - mass.error(), sum + mass.error()};
   r.samples = binned.counts().drawn;
   r.leaned_on = mass.rejected.value == 0 ? "error estimate of the cubature"
                 : mass.rejected.measured
                     ? "error estimates of the cubature and of the rejected area"
                     : "error estimate of the cubature, counted rejections";
-  r.figures = {{"integral of the pdf", mass.integral},
-               {"error of the integral", mass.integral_error},
-               {"atoms", mass.atoms},
-               {"rejected share", mass.rejected.value},
-               {"rounding", binned.rounding()},
-               {"evaluations", static_cast<double>(binned.expected().evaluations)}};
-  if (!binned.expected().finite || !std::isfinite(r.estimate)) {
+  r.figures = {{Figure::integral_of_pdf, mass.integral},
+               {Figure::integral_error, mass.integral_error},
+               {Figure::atoms, mass.atoms},
+               {Figure::rejected_share, mass.rejected.value},
+               {Figure::rounding, binned.rounding()},
+               {Figure::evaluations, static_cast<double>(binned.expected().evaluations)}};
+  if (!binned.expected().finite || !std::isfinite(sum)) {
     r.verdict = Verdict::fail;
     r.reason = "the pdf is not finite somewhere";
   } else if (!(std::abs(mass.excess()) - mass.error() <= tolerance)) {
@@ -48,7 +50,7 @@ CheckResult judge_integral(const ContractOptions& options, const BinnedPair& bin
     if (mass.atoms > 0) r.reason += ", atoms add " + number(mass.atoms);
     if (mass.rejected.value > 0)
       r.reason += ", rejected samples add " + number(mass.rejected.value);
-  } else if (r.bound <= tolerance) {
+  } else if (bound <= tolerance) {
     r.verdict = Verdict::pass;
   } else {
     r.reason = "the sum is known to " + number(mass.error()) + " only";
@@ -57,9 +59,12 @@ CheckResult judge_integral(const ContractOptions& options, const BinnedPair& bin
 }
 
 CheckResult check_integral(const SamplingPair& pair, const ContractOptions& options) {
+  const Stopwatch watch;
   BinnedPair binned(pair, options.finest_bins, options.mass_tolerance / 2, options.seed);
   binned.draw(kProbes);
-  return judge_integral(options, binned, measure_rejected(pair, options.seed));
+  CheckResult result = judge_integral(options, binned, measure_rejected(pair, options.seed));
+  result.seconds = watch.seconds();
+  return result;
 }
 
 }  // namespace plumbline::verify

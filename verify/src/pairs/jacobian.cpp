@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include <plumbline/verify/detail/stopwatch.h>
+
 #include "pairs/chi_square_look.h"
 #include "text.h"
 
@@ -142,7 +144,7 @@ class Jacobian {
     outcome_.evidence.quotient = "observed/expected";
     outcome_.evidence.denominator = "pdf";
     CheckResult& r = outcome_.result;
-    r.check = "jacobian";
+    r.kind = CheckKind::jacobian;
     r.subject = pair.name + "/jacobian";
     r.reference = 0;
     r.tolerance = tolerance_;
@@ -171,6 +173,7 @@ class Jacobian {
   JacobianOutcome skip(const char* reason) {
     outcome_.result.expected = Verdict::inconclusive;
     outcome_.result.reason = reason;
+    outcome_.result.seconds = watch_.seconds();
     return std::move(outcome_);
   }
 
@@ -247,8 +250,9 @@ class Jacobian {
     r.samples = static_cast<std::uint64_t>(usable_);
     r.estimate = r.bound = worst_;
     r.detectable = tolerance_ * 2;
+    r.seconds = watch_.seconds();
     r.figures = {
-        {"points tried", tried_}, {"folds, seams, rounding", folds_}, {"failing", failing_}};
+        {Figure::points_tried, tried_}, {Figure::folds, folds_}, {Figure::failing, failing_}};
     if (tried_ == 0) {
       r.expected = Verdict::inconclusive;
       r.reason = "the map gave no point of a density";
@@ -266,6 +270,7 @@ class Jacobian {
     }
   }
 
+  const Stopwatch watch_;
   const SamplingPair& pair_;
   Random random_;
   double tolerance_;

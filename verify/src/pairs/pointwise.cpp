@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <plumbline/verify/detail/stopwatch.h>
+
 #include "pairs/chi_square_look.h"
 #include "text.h"
 
@@ -18,9 +20,9 @@ constexpr double kRounding = 256;
 /// Counts the points where one property holds and where not.
 class Property {
  public:
-  Property(const SamplingPair& pair, const ContractOptions& options, const char* check) {
-    outcome_.result.check = check;
-    outcome_.result.subject = pair.name + "/" + check;
+  Property(const SamplingPair& pair, const ContractOptions& options, CheckKind kind) {
+    outcome_.result.kind = kind;
+    outcome_.result.subject = pair.name + "/" + std::string(to_string(kind));
     outcome_.result.seed = options.seed;
     outcome_.result.reference = 0;
   }
@@ -89,10 +91,10 @@ class Pointwise {
   Pointwise(const SamplingPair& pair, const ContractOptions& options)
       : pair_(pair),
         random_(options.seed, 4),
-        record_(pair, options, "record_pdf"),
-        weight_(pair, options, "weight"),
-        support_(pair, options, "support"),
-        finite_(pair, options, "finite"),
+        record_(pair, options, CheckKind::record_pdf),
+        weight_(pair, options, CheckKind::weight),
+        support_(pair, options, CheckKind::support),
+        finite_(pair, options, CheckKind::finite),
         discrete_(pair.domain.dimension() == 0) {
     record_.quotient("record pdf/pdf()", "pdf()");
     weight_.quotient("weight·pdf/(f·|cosθ|)", "f·|cosθ|");
@@ -106,6 +108,9 @@ class Pointwise {
     for (Property* p : {&record_, &weight_, &support_, &finite_}) {
       if (p->tested()) outcomes.push_back(p->finish());
     }
+    // They look at the same points: each gets its share of the time.
+    const double share = watch_.seconds() / static_cast<double>(outcomes.size());
+    for (PointwiseOutcome& outcome : outcomes) outcome.result.seconds = share;
     return outcomes;
   }
 
@@ -253,6 +258,7 @@ class Pointwise {
     return difference <= kRounding * pair_.epsilon * scale + 16 * spread;
   }
 
+  const Stopwatch watch_;
   const SamplingPair& pair_;
   Random random_;
   Property record_, weight_, support_, finite_;
@@ -266,15 +272,15 @@ std::vector<PointwiseOutcome> judge_pointwise(const SamplingPair& pair,
   return Pointwise(pair, options).run(options.points);
 }
 
-std::vector<CheckResult> check_pointwise(const SamplingPair& pair, const ContractOptions& options) {
-  std::vector<CheckResult> results;
+Report check_pointwise(const SamplingPair& pair, const ContractOptions& options) {
+  Report report;
   for (PointwiseOutcome& outcome : judge_pointwise(pair, options)) {
     if (outcome.result.verdict == Verdict::fail) {
       outcome.result.diagnosis = diagnose(pair, outcome.evidence).text;
     }
-    results.push_back(std::move(outcome.result));
+    report.results.push_back(std::move(outcome.result));
   }
-  return results;
+  return report;
 }
 
 }  // namespace plumbline::verify
