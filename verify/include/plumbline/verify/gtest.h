@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <plumbline/verify/detail/report.h>
@@ -20,18 +19,19 @@ inline std::string replay_of_running_test() {
   return command + "--gtest_filter=" + test->test_suite_name() + "." + test->name();
 }
 
-inline testing::AssertionResult with_summary(bool holds, Report report) {
+inline testing::AssertionResult with_summary(bool holds, const Report& report) {
   if (holds) return testing::AssertionSuccess();
-  if (report.replay.empty()) report.replay = replay_of_running_test();
-  return testing::AssertionFailure() << report.summary();
+  Report repeatable = report;
+  if (repeatable.replay.empty()) repeatable.replay = replay_of_running_test();
+  return testing::AssertionFailure() << repeatable.summary();
 }
 
-inline testing::AssertionResult passes(const char*, Report report) {
-  return with_summary(report.ok(), std::move(report));
+inline testing::AssertionResult passes(const char*, const Report& report) {
+  return with_summary(report.ok(), report);
 }
 
-inline testing::AssertionResult gives_verdicts(const char*, Report report) {
-  return with_summary(report.as_expected(), std::move(report));
+inline testing::AssertionResult gives_verdicts(const char*, const Report& report) {
+  return with_summary(report.as_expected(), report);
 }
 
 }  // namespace plumbline::verify::detail
