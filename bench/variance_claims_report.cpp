@@ -24,7 +24,9 @@ struct Ratio {
 
 Ratio ratio(const Values& a, const Values& b) {
   const verify::CheckResult r = verify::check_variance_ratio({}, a, b);
-  return {r.estimate, r.interval_low, r.interval_high, r.verdict == verify::Verdict::pass};
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const verify::Interval interval = r.interval.value_or(verify::Interval{kUnknown, kUnknown});
+  return {r.estimate.value_or(kUnknown), interval.low, interval.high, r.ok()};
 }
 
 std::string text(const Ratio& r) {

@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -40,11 +42,9 @@ std::string heading(const std::string& table) {
   return "the same code twice: share of runs that claim a difference";
 }
 
-double figure(const verify::CheckResult& result, const std::string& name) {
-  for (const auto& [key, value] : result.figures) {
-    if (key == name) return value;
-  }
-  return verify::kNotApplicable;
+std::string range(const std::optional<double>& low, const std::optional<double>& high) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  return fmt::format("[{:.3g}, {:.3g}]", low.value_or(kUnknown), high.value_or(kUnknown));
 }
 
 void print_heading(const std::string& table) {
@@ -53,11 +53,11 @@ void print_heading(const std::string& table) {
 }
 
 void print_row(const std::string& name, const verify::CheckResult& r) {
-  const std::string interval = fmt::format("[{:.3g}, {:.3g}]", r.interval_low, r.interval_high);
-  const std::string range =
-      fmt::format("[{:.3g}, {:.3g}]", figure(r, "at least"), figure(r, "at most"));
-  fmt::print("{:<52} {:>8} {:>9.4g}  {:<21} {:<19} {}{}\n", name, r.samples, r.estimate, interval,
-             range, verify::to_string(r.verdict),
+  const verify::Interval proven = r.interval.value_or(verify::Interval{});
+  fmt::print("{:<52} {:>8} {:>9.4g}  {:<21} {:<19} {}{}\n", name, r.samples, r.estimate.value_or(0),
+             range(proven.low, proven.high),
+             range(r.figure(verify::Figure::at_least), r.figure(verify::Figure::at_most)),
+             verify::to_string(r.verdict),
              r.as_expected() ? (r.expected == verify::Verdict::fail ? ", as it must" : "")
                              : ", NOT as expected");
   if (!r.as_expected()) fmt::print("    {}\n", r.reason);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -27,7 +28,7 @@ Json json_from_double(double value);
 double double_from_json(const Json& value);
 
 /// The words for the values of an enumeration: a specialisation holds `kWords`, pairs of value and
-/// word.
+/// word, or both functions, `word` of a value and `value` (or nullopt) of a word.
 template <class Enum>
 struct EnumWords;
 
@@ -50,6 +51,8 @@ class FieldWriter {
   static Json to_value(const T& value) {
     if constexpr (std::is_floating_point_v<T>) {
       return json_from_double(value);
+    } else if constexpr (std::is_same_v<T, std::optional<double>>) {
+      return value ? json_from_double(*value) : Json();
     } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
       return value;
     } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
@@ -62,10 +65,14 @@ class FieldWriter {
   }
   template <class Enum>
   static std::string word(Enum value) {
-    for (const auto& [candidate, text] : EnumWords<Enum>::kWords) {
-      if (candidate == value) return text;
+    if constexpr (requires { EnumWords<Enum>::word(value); }) {
+      return std::string(EnumWords<Enum>::word(value));
+    } else {
+      for (const auto& [candidate, text] : EnumWords<Enum>::kWords) {
+        if (candidate == value) return text;
+      }
+      throw FormatError("a value of an enumeration that has no word");
     }
-    throw FormatError("a value of an enumeration that has no word");
   }
   template <class T>
   static Json to_value(const std::vector<T>& values) {
@@ -111,6 +118,9 @@ class FieldReader {
 
  private:
   static void from_value(const Json& json, double& value) { value = double_from_json(json); }
+  static void from_value(const Json& json, std::optional<double>& value) {
+    value = json.is_null() ? std::nullopt : std::optional(double_from_json(json));
+  }
   static void from_value(const Json& json, bool& value) {
     if (!json.is_boolean()) throw FormatError("not true or false");
     value = json.get<bool>();
@@ -170,8 +180,13 @@ class FieldReader {
   }
   template <class Enum>
   static Enum enum_from_word(const Json& json) {
-    for (const auto& [value, word] : EnumWords<Enum>::kWords) {
-      if (json == word) return value;
+    if constexpr (requires(std::string_view text) { EnumWords<Enum>::value(text); }) {
+      const auto value = EnumWords<Enum>::value(json.is_string() ? json.get<std::string>() : "");
+      if (value) return *value;
+    } else {
+      for (const auto& [value, word] : EnumWords<Enum>::kWords) {
+        if (json == word) return value;
+      }
     }
     throw FormatError("unknown word " + json.dump(-1, ' ', false, Json::error_handler_t::replace));
   }

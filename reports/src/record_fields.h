@@ -103,9 +103,45 @@ struct EnumWords<verify::Verdict> {
        {verify::Verdict::inconclusive, "inconclusive"}}};
 };
 
+template <>
+struct EnumWords<verify::CheckKind> {
+  static std::string_view word(verify::CheckKind kind) { return verify::to_string(kind); }
+  static std::optional<verify::CheckKind> value(std::string_view word) {
+    return verify::check_kind(word);
+  }
+};
+
+/// An interval is written as two numbers, both null where there is none.
+template <class Visitor, Is<std::optional<verify::Interval>> Interval>
+void visit_interval(Visitor& visit, Interval& interval) {
+  std::optional<double> low, high;
+  if (interval) {
+    low = interval->low;
+    high = interval->high;
+  }
+  visit("interval_low", low);
+  visit("interval_high", high);
+  if constexpr (!std::is_const_v<Interval>) {
+    interval.reset();
+    if (low && high) interval = {*low, *high};
+  }
+}
+
+/// Figures are written by name.
+template <class Visitor, Is<std::vector<verify::FigureValue>> Figures>
+void visit_figures(Visitor& visit, Figures& figures) {
+  std::vector<std::pair<std::string, double>> named;
+  for (const verify::FigureValue& figure : figures) named.emplace_back(figure.name(), figure.value);
+  visit("figures", named);
+  if constexpr (!std::is_const_v<Figures>) {
+    figures.clear();
+    for (const auto& [name, value] : named) figures.emplace_back(name, value);
+  }
+}
+
 template <class Visitor, Is<verify::CheckResult> Record>
 void visit_fields(Visitor& visit, Record& r) {
-  visit("check", r.check);
+  visit("check", r.kind);
   visit("subject", r.subject);
   visit("verdict", r.verdict);
   visit("expected", r.expected);
@@ -115,8 +151,7 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("bound", r.bound);
   visit("detectable", r.detectable);
   visit("p_value", r.p_value);
-  visit("interval_low", r.interval_low);
-  visit("interval_high", r.interval_high);
+  visit_interval(visit, r.interval);
   visit("samples", r.samples);
   visit("seconds", r.seconds);
   visit("leaned_on", r.leaned_on);
@@ -124,7 +159,7 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("diagnosis", r.diagnosis);
   visit("seed", r.seed);
   visit("replay", r.replay);
-  visit("figures", r.figures);
+  visit_figures(visit, r.figures);
 }
 
 template <class Visitor, Is<RenderRecord> Record>

@@ -147,7 +147,7 @@ Worst walk(const Example& example, int points_per_direction, const Fault& fault 
 
 verify::CheckResult result_of(const std::string& subject, const Worst& worst) {
   verify::CheckResult result;
-  result.check = "jacobian";
+  result.kind = verify::CheckKind::jacobian;
   result.subject = subject;
   result.verdict = worst.error <= kTolerance ? verify::Verdict::pass : verify::Verdict::fail;
   result.estimate = 1 + worst.error;

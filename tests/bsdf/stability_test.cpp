@@ -216,7 +216,7 @@ std::string text(const Inputs& x, bool of_directions) {
 
 verify::CheckResult result_of(const std::string& name, const Subject& subject, const Tally& tally) {
   verify::CheckResult result;
-  result.check = "stability";
+  result.kind = verify::CheckKind::stability;
   result.subject = name + "/" + subject.name;
   result.verdict = tally.worst <= kTolerance ? verify::Verdict::pass : verify::Verdict::fail;
   result.estimate = tally.worst;
@@ -227,7 +227,7 @@ verify::CheckResult result_of(const std::string& name, const Subject& subject, c
   if (!tally.place.empty()) {
     result.reason = "largest error at " + text(tally.place, subject.of_directions);
   }
-  result.figures = {{"ill-conditioned points", static_cast<double>(tally.ill_conditioned)},
+  result.figures = {{verify::Figure::ill_conditioned, static_cast<double>(tally.ill_conditioned)},
                     {"largest error there", tally.worst_ill_conditioned},
                     {"condition number there", tally.condition}};
   return result;

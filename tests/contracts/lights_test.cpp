@@ -120,7 +120,7 @@ TEST_P(LightSelection, IsADiscretePairForAnyNumberOfLights) {
     name.append(renderer::name(GetParam())).append("/").append(std::to_string(count));
     verify::ContractOptions options;
     options.seed = check_seed(name);
-    const auto pair = verify::make_pair<int>(
+    const auto pair = verify::sampling_pair<int>(
         name, verify::Domain::discrete(count),
         [&](float u) {
           return static_cast<int>(lights.choose(Vec2<float>{u, 0.5f}).light);
@@ -200,13 +200,13 @@ TEST(DiscreteDistribution, IsADiscretePairAndLeavesAUniformNumberBehind) {
   EXPECT_EQ(distribution.pmf<float>(5), 0);
   verify::ContractOptions options;
   options.seed = check_seed("discrete distribution");
-  const auto choice = verify::make_pair<int>(
+  const auto choice = verify::sampling_pair<int>(
       "discrete distribution/choice", verify::Domain::discrete(5),
       [&](float u) { return static_cast<int>(distribution.sample(u).index); },
       [&](int i) { return distribution.pmf<float>(static_cast<std::uint32_t>(i)); });
   for (const verify::CheckResult& r : check_pair(choice, options)) expect_verdict(r);
 
-  auto rest = verify::make_pair<float>(
+  auto rest = verify::sampling_pair<float>(
       "discrete distribution/rest", verify::Domain::interval(0, 1),
       [&](float u) { return distribution.sample(u).u; }, [](float) { return 1.0f; });
   rest.many_to_one = true;  // each choice leads to every rest

@@ -65,7 +65,7 @@ TYPED_TEST_SUITE(Warps, AllWarps, WarpName);
 template <class W, class T>
 verify::SamplingPair warp_pair() {
   using Point = typename W::template Point<T>;
-  return verify::make_pair<Point>(
+  return verify::sampling_pair<Point>(
       std::string("warp/") + W::kName, W::domain(),
       [](T u, T v) {
         return W::sample(Vec2<T>{u, v});

@@ -56,7 +56,7 @@ verify::CheckResult check(const Integral1d& integral, const Rule& rule,
   // whose mean is exact to 1e-10, is shown elsewhere, without noise.
   options.tolerance = nightly() ? 0.002 : 0.02;
   options.exact_variance = multi_sample_moments(integral, rule.oracle, counts).variance;
-  const double cv = std::sqrt(options.exact_variance) / integral.value;
+  const double cv = std::sqrt(*options.exact_variance) / integral.value;
   options.max_samples =
       std::max<std::uint64_t>(1 << 15, verify::samples_to_decide(options.tolerance, cv));
   options.seed = check_seed(options.subject);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -28,9 +29,9 @@ EstimatorCase case_named(const analytic::Integral1d& integral, const std::string
 
 /// A check that knows nothing but the samples, or the exact variance too.
 verify::CheckResult check(const EstimatorCase& c, Verdict expected,
-                          double exact_variance = verify::kNotApplicable) {
+                          std::optional<double> exact_variance = std::nullopt) {
   verify::MeanOptions options;
-  options.subject = c.subject() + (std::isnan(exact_variance) ? "/samples alone" : "/to 5 %");
+  options.subject = c.subject() + (exact_variance ? "/to 5 %" : "/samples alone");
   options.exact_variance = exact_variance;
   options.reference = c.value;
   options.tolerance = 0.05;

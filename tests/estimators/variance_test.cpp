@@ -98,7 +98,7 @@ verify::CheckResult variance_of(const EstimatorCase& c) {
   verify::CheckResult result = verify::check_mean(
       options,
       moment_sampler(c, options.seed, [mean](double x) { return (x - mean) * (x - mean); }));
-  result.check = "variance";
+  result.kind = verify::CheckKind::variance;
   return result;
 }
 

@@ -1,5 +1,5 @@
 # No public header of verify pulls in Boost: a user's test file would take seconds more to compile.
-# But for jacobian_autodiff.h, which nothing else includes and who wants automatic differentiation
+# But for autodiff.h, which nothing else includes and who wants automatic differentiation
 # asks for; it shows too that the preprocessor's answer can be yes.
 #
 # -DROOT=verify -DCOMPILER=… -DGTEST_INCLUDES=…

@@ -112,7 +112,7 @@ TEST(SobolSampler, EveryPointUnderARandomScrambleIsUniformOnTheSquare) {
     subject.append(std::to_string(index));
     verify::ContractOptions options;
     options.seed = check_seed(subject);
-    const auto pair = verify::make_pair<Vec2f>(
+    const auto pair = verify::sampling_pair<Vec2f>(
         subject, verify::Domain::unit_square(),
         [index](verify::Random& random) { return SobolSampler(random.bits(), 0, index).next_2d(); },
         [](const Vec2f&) { return 1.0f; });

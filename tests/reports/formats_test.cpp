@@ -47,7 +47,7 @@ TEST(Formats, EveryRecordSurvivesTheRoundTrip) {
 TEST(Formats, CheckIsReadBackFieldByField) {
   const verify::CheckResult in = sample_check();
   const verify::CheckResult out = reports::parse_check(reports::to_json(in));
-  EXPECT_EQ(out.check, in.check);
+  EXPECT_EQ(out.kind, in.kind);
   EXPECT_EQ(out.subject, in.subject);
   EXPECT_EQ(out.verdict, in.verdict);
   EXPECT_EQ(out.expected, in.expected);
@@ -57,8 +57,7 @@ TEST(Formats, CheckIsReadBackFieldByField) {
   EXPECT_EQ(out.bound, in.bound);
   EXPECT_EQ(out.detectable, in.detectable);
   EXPECT_EQ(out.p_value, in.p_value);
-  EXPECT_EQ(out.interval_low, in.interval_low);
-  EXPECT_EQ(out.interval_high, in.interval_high);
+  EXPECT_EQ(out.interval, in.interval);
   EXPECT_EQ(out.samples, in.samples);
   EXPECT_EQ(out.seconds, in.seconds);
   EXPECT_EQ(out.leaned_on, in.leaned_on);
@@ -123,8 +122,8 @@ TEST(Bars, AreMetOnlyWhereTheWholeIntervalIs) {
 TEST(Formats, NotANumberIsNullAndInfinityIsAWord) {
   verify::CheckResult check = sample_check();
   check.bound = kInfinity;
-  check.interval_low = -kInfinity;
-  check.p_value = verify::kNotApplicable;
+  check.interval = {-kInfinity, 0.375};
+  check.p_value = std::nullopt;
   check.figures = {{"skewness", std::nan("")}};
   const std::string text = reports::to_json(check);
   const Json json = Json::parse(text);
@@ -133,9 +132,28 @@ TEST(Formats, NotANumberIsNullAndInfinityIsAWord) {
   EXPECT_TRUE(json["p_value"].is_null());
   const verify::CheckResult out = reports::parse_check(text);
   EXPECT_EQ(out.bound, kInfinity);
-  EXPECT_EQ(out.interval_low, -kInfinity);
-  EXPECT_TRUE(std::isnan(out.p_value));
-  EXPECT_TRUE(std::isnan(out.figures.at(0).second));
+  EXPECT_EQ(out.interval->low, -kInfinity);
+  EXPECT_EQ(out.p_value, std::nullopt);
+  EXPECT_TRUE(std::isnan(out.figures.at(0).value));
+}
+
+TEST(Formats, WhatACheckHasNotIsNullAndComesBackAbsent) {
+  const std::string text = reports::to_json(verify::CheckResult{});
+  const Json json = Json::parse(text);
+  for (const char* field : {"estimate", "reference", "tolerance", "bound", "detectable", "p_value",
+                            "interval_low", "interval_high"}) {
+    EXPECT_TRUE(json[field].is_null()) << field;
+  }
+  const verify::CheckResult out = reports::parse_check(text);
+  EXPECT_FALSE(out.estimate || out.reference || out.tolerance || out.bound || out.detectable);
+  EXPECT_FALSE(out.p_value || out.interval);
+}
+
+TEST(Formats, FiguresAreReadBackByWhatTheyAre) {
+  const verify::CheckResult out = reports::parse_check(reports::to_json(sample_check()));
+  EXPECT_EQ(out.figure(verify::Figure::bins), 4096);
+  EXPECT_EQ(out.figures.at(1).figure, verify::Figure::other);
+  EXPECT_EQ(out.figures.at(1).name(), "a \"quoted\" name");
 }
 
 TEST(Formats, TextsKeepQuotesLineBreaksUnicodeAndMarkup) {
@@ -168,6 +186,8 @@ TEST(Formats, FieldAtFaultIsNamed) {
   EXPECT_EQ(refusal_of_check(check_with("subject", 3)), "field \"subject\": not a text");
   EXPECT_EQ(refusal_of_check(check_with("verdict", "maybe")),
             "field \"verdict\": unknown word \"maybe\"");
+  EXPECT_EQ(refusal_of_check(check_with("check", "guess")),
+            "field \"check\": unknown word \"guess\"");
   EXPECT_EQ(refusal_of_check(check_with("figures", Json::array({"bins"}))),
             "field \"figures\": not a pair of name and number");
 }

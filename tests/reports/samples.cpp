@@ -4,7 +4,7 @@ namespace plumbline::tests {
 
 verify::CheckResult sample_check() {
   verify::CheckResult check;
-  check.check = "mean";
+  check.kind = verify::CheckKind::mean;
   check.subject = "furnace_sphere/mis/power";
   check.verdict = verify::Verdict::fail;
   check.expected = verify::Verdict::inconclusive;
@@ -14,8 +14,7 @@ verify::CheckResult sample_check() {
   check.bound = 1.5e-3;
   check.detectable = 2.5e-3;
   check.p_value = 1e-300;
-  check.interval_low = -0.125;
-  check.interval_high = 0.375;
+  check.interval = {-0.125, 0.375};
   check.samples = 9'007'199'254'740'993;  // 2^53 + 1, which a double cannot hold
   check.seconds = 0.75;
   check.leaned_on = "exact variance";
@@ -23,7 +22,7 @@ verify::CheckResult sample_check() {
   check.diagnosis = "observed/expected = 2: factor?";
   check.seed = 18'446'744'073'709'551'615u;
   check.replay = "ctest -R '^A\\.B$'";
-  check.figures = {{"bins", 4096}, {"a \"quoted\" name", 0.5}};
+  check.figures = {{verify::Figure::bins, 4096}, {"a \"quoted\" name", 0.5}};
   return check;
 }
 

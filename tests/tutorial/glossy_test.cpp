@@ -13,5 +13,5 @@ TEST(Glossy, SamplesWhatItsPdfSays) {
   options.conventions.zero_pdf_is_failure = true;
   options.back = false;          // black from below
   options.angles = {0, 40, 80};  // degrees
-  EXPECT_PASS(verify::check_bsdf("glossy", tiny::Glossy{}, options));
+  PLUMBLINE_EXPECT_PASS(verify::check_bsdf("glossy", tiny::Glossy{}, options));
 }

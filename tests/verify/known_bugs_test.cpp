@@ -18,7 +18,7 @@
 namespace plumbline::verify {
 namespace {
 
-using Results = std::vector<CheckResult>;
+using Results = Report;
 
 BsdfOptions looked_at(std::vector<double> angles) {
   BsdfOptions o;
@@ -82,7 +82,7 @@ ErasedBsdf translucent() {
 /// A map with luminance 1 + 0.8 cosθ, sampled in proportion.
 SamplingPair environment_map() {
   constexpr double kTilt = 0.8;
-  return make_pair<Vec3>(
+  return sampling_pair<Vec3>(
       "L12", Domain::sphere(),
       [](double u, double v) {
         // (1 + c)/2 + kTilt (c² − 1)/4 = u, solved for c = cosθ.
@@ -97,7 +97,7 @@ constexpr double kLightArea = 40;
 
 /// A rectangle of 8 m by 5 m, by area.
 SamplingPair rectangle() {
-  return make_pair<Vec3>(
+  return sampling_pair<Vec3>(
       "L2",
       Domain::surface(
           [](const Point2& p) {
@@ -229,8 +229,9 @@ Row summary_of(const Results& results) {
     if (r.verdict != Verdict::fail) continue;
     if (row.samples == 0) row.samples = r.samples;
     if (row.diagnosis.empty()) row.diagnosis = r.diagnosis;
-    if ((" " + row.failing + " ").find(" " + r.check + " ") == std::string::npos) {
-      row.failing += (row.failing.empty() ? "" : " ") + r.check;
+    const std::string kind(to_string(r.kind));
+    if ((" " + row.failing + " ").find(" " + kind + " ") == std::string::npos) {
+      row.failing += (row.failing.empty() ? "" : " ") + kind;
     }
   }
   return row;

@@ -36,8 +36,8 @@ TEST(MeanCheck, ProvesTheBoundOfACorrectEstimator) {
   const CheckResult r = run(options("mean/exponential", 1), Exponential{});
   expect_verdict(r);
   EXPECT_LE(r.bound, 0.005);
-  EXPECT_LE(r.interval_low, 1);
-  EXPECT_GE(r.interval_high, 1);
+  EXPECT_LE(r.interval->low, 1);
+  EXPECT_GE(r.interval->high, 1);
   EXPECT_LE(r.samples, 2 * samples_to_decide(0.005, 1));  // looks double
 }
 

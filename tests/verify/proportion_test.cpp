@@ -24,11 +24,11 @@ ProportionOptions claim(const char* subject, double at_least, double at_most,
 TEST(Proportion, IntervalIsThatOfClopperAndPearson) {
   // No hit in n: the upper limit solves (1 − p)^n = 0.0005.
   const CheckResult none = check_proportion(claim("proportion/none", 0, 1), 0, 100);
-  EXPECT_EQ(none.interval_low, 0);
-  EXPECT_NEAR(none.interval_high, 1 - std::pow(0.0005, 0.01), 1e-12);
+  EXPECT_EQ(none.interval->low, 0);
+  EXPECT_NEAR(none.interval->high, 1 - std::pow(0.0005, 0.01), 1e-12);
   const CheckResult all = check_proportion(claim("proportion/all", 0, 1), 100, 100);
-  EXPECT_NEAR(all.interval_low, std::pow(0.0005, 0.01), 1e-12);
-  EXPECT_EQ(all.interval_high, 1);
+  EXPECT_NEAR(all.interval->low, std::pow(0.0005, 0.01), 1e-12);
+  EXPECT_EQ(all.interval->high, 1);
 }
 
 TEST(Proportion, PassesWhatIsProvenAndFailsWhatIsDisproven) {
@@ -43,8 +43,8 @@ TEST(Proportion, PassesWhatIsProvenAndFailsWhatIsDisproven) {
 
 TEST(Proportion, PValueIsThatOfTheBrokenEdge) {
   // P(X ≥ 3 | n = 3, p = ½) = 1/8, two-sided.
-  EXPECT_NEAR(check_proportion(claim("p", 0, 0.5), 3, 3).p_value, 0.25, 1e-12);
-  EXPECT_NEAR(check_proportion(claim("p", 0.5, 1), 0, 3).p_value, 0.25, 1e-12);
+  EXPECT_NEAR(check_proportion(claim("p", 0, 0.5), 3, 3).p_value.value(), 0.25, 1e-12);
+  EXPECT_NEAR(check_proportion(claim("p", 0.5, 1), 0, 3).p_value.value(), 0.25, 1e-12);
   EXPECT_EQ(check_proportion(claim("p", 0, 1), 2, 3).p_value, 1);
 }
 

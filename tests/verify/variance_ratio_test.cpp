@@ -40,8 +40,8 @@ TEST(VarianceRatio, KeepsATrueClaim) {
   const CheckResult r =
       check_variance_ratio(o, batches(o.seed, scaled(2)), batches(o.seed + 1, scaled(1)));
   expect_verdict(r);
-  EXPECT_LE(r.interval_low, 4);
-  EXPECT_GE(r.interval_high, 4);
+  EXPECT_LE(r.interval->low, 4);
+  EXPECT_GE(r.interval->high, 4);
 }
 
 TEST(VarianceRatio, BreaksAFalseClaim) {
@@ -78,9 +78,9 @@ TEST(VarianceRatio, SharedSeedsNarrowTheInterval) {
   const auto a = batches(o.seed, scaled(1.1));
   const CheckResult paired = check_variance_ratio(o, a, batches(o.seed, scaled(1)));
   const CheckResult apart = check_variance_ratio(o, a, batches(o.seed + 1, scaled(1)));
-  EXPECT_LT(paired.interval_high - paired.interval_low,
-            0.2 * (apart.interval_high - apart.interval_low));
-  EXPECT_NEAR(paired.estimate, 1.21, 1e-9);
+  EXPECT_LT(paired.interval->high - paired.interval->low,
+            0.2 * (apart.interval->high - apart.interval->low));
+  EXPECT_NEAR(*paired.estimate, 1.21, 1e-9);
 }
 
 TEST(VarianceRatio, OfTheSameRunIsExactlyOne) {

@@ -53,7 +53,7 @@ verify::CheckResult coverage(const Pair& pair, const Effort& effort) {
   o.budget.pass_confidence = 1 - missing;
   const std::uint64_t held = count_runs(effort, runs, [&](std::uint64_t seed) {
     const verify::CheckResult r = check_variance_ratio(o, pair.a(seed), pair.b(seed + 1));
-    return r.interval_low <= pair.ratio && pair.ratio <= r.interval_high;
+    return r.interval && r.interval->low <= pair.ratio && pair.ratio <= r.interval->high;
   });
   verify::ProportionOptions claim;
   claim.at_least = 1 - excludable_rate(pair.heavy_against_light ? heavy : missing, runs);

@@ -35,7 +35,7 @@ Experiment detection(std::string name, Runs runs, double effect,
     double promise = 0;
     const std::uint64_t found = count_runs(effort, count, [&](std::uint64_t seed) {
       const CheckResult r = check(seed);
-      promise += r.detectable / static_cast<double>(count);
+      promise += r.detectable.value() / static_cast<double>(count);
       return r.verdict == Verdict::fail;
     });
     verify::ProportionOptions claim;
@@ -107,7 +107,7 @@ Experiment ten_percent(std::string name, Draw draw, double mean, double promised
     o.reference = 1.1 * mean;
     o.max_samples = 20'000;
     CheckResult r = check_mean(o, sampler(seed, draw));
-    r.detectable /= o.reference;
+    *r.detectable /= o.reference;
     return r;
   };
   return detection("10 % within 20,000 samples, " + std::move(name), {500, 20'000}, 0.1, check,

@@ -1,5 +1,7 @@
 #include <plumbline/calibration/experiments.h>
 
+#include <plumbline/verify/detail/stopwatch.h>
+
 #include "tables.h"
 
 namespace plumbline::calibration {
@@ -15,8 +17,10 @@ std::vector<Experiment> experiments() {
 }
 
 verify::CheckResult run(const Experiment& experiment, const Effort& effort) {
+  const verify::Stopwatch watch;
   verify::CheckResult result = experiment.run(effort);
-  result.check = "calibration";
+  result.kind = verify::CheckKind::calibration;
+  result.seconds = watch.seconds();
   result.subject = "calibration/";
   result.subject += experiment.table + "/" + experiment.name;
   result.seed = effort.seed;

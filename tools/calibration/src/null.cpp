@@ -47,18 +47,19 @@ MeanOptions one_look(std::uint64_t samples, double reference) {
 }
 
 std::vector<double> mean_p(std::uint64_t seed) {
-  return {check_mean(one_look(1250, 1), sampler(seed, Uniform{})).p_value};
+  return {check_mean(one_look(1250, 1), sampler(seed, Uniform{})).p_value.value()};
 }
 
 std::vector<double> exact_variance_p(std::uint64_t seed) {
   MeanOptions o = one_look(1250, 1);
   o.exact_variance = 1.0 / 3;
-  return {check_mean(o, sampler(seed, Uniform{})).p_value};
+  return {check_mean(o, sampler(seed, Uniform{})).p_value.value()};
 }
 
 std::vector<double> agreement_p(std::uint64_t seed) {
   const MeanOptions o = one_look(1250, 0);
-  return {check_agreement(o, sampler(seed, Uniform{}), sampler(seed + 1, Uniform{0.3})).p_value};
+  return {check_agreement(o, sampler(seed, Uniform{}), sampler(seed + 1, Uniform{0.3}))
+              .p_value.value()};
 }
 
 std::vector<double> ratio_p(std::uint64_t seed) {
@@ -66,7 +67,7 @@ std::vector<double> ratio_p(std::uint64_t seed) {
   o.at_least = o.at_most = 4;
   return {check_variance_ratio(o, batches(seed, Uniform{1.0}, 64, 40),
                                batches(seed + 1, Uniform{0.5}, 64, 40))
-              .p_value};
+              .p_value.value()};
 }
 
 std::vector<double> chi_square_p(std::uint64_t seed) {
@@ -74,11 +75,11 @@ std::vector<double> chi_square_p(std::uint64_t seed) {
   o.seed = seed;
   o.finest_bins = 64;  // one level of bins: the p-value of the worst of several is not uniform
   o.first_look = o.samples = 6400;
-  return {check_chi_square(tilted_cosine(0), o).p_value};
+  return {check_chi_square(tilted_cosine(0), o).p_value.value()};
 }
 
 std::vector<double> image_p(std::uint64_t seed) {
-  return {check_image({}, noisy_image(8, 128, 1, seed), grey_image(8)).check.p_value};
+  return {check_image({}, noisy_image(8, 128, 1, seed), grey_image(8)).check.p_value.value()};
 }
 
 std::vector<double> tiles_p(std::uint64_t seed) {

@@ -2,6 +2,7 @@
 #include <string>
 
 #include <plumbline/verify/bsdf.h>
+#include <plumbline/verify/detail/stopwatch.h>
 
 #include "bsdfs/bsdf_result.h"
 #include "streams.h"
@@ -23,10 +24,12 @@ double distance_from_law(const Vec3& wo, const Vec3& wi, double eta) {
 
 CheckResult check_atoms(const std::string& name, const ErasedBsdf& bsdf, const Vec3& wo,
                         const BsdfOptions& options) {
+  const Stopwatch watch;
   Random random = random_for(options.contract.seed, Stream::atoms);
-  CheckResult r = bsdf_result("atoms", name, options.contract);
+  CheckResult r = bsdf_result(CheckKind::atoms, name, options.contract);
   r.reference = 0;
-  r.tolerance = 64 * bsdf.epsilon;
+  const double tolerance = 64 * bsdf.epsilon;
+  r.tolerance = tolerance;
   r.leaned_on = "laws of reflection and refraction";
   double worst = 0;
   for (int i = 0; i < kAtomProbes; ++i) {
@@ -36,13 +39,14 @@ CheckResult check_atoms(const std::string& name, const ErasedBsdf& bsdf, const V
     const double distance = distance_from_law(wo, s->x, options.eta);
     if (distance <= worst) continue;
     worst = distance;
-    if (!(distance <= r.tolerance)) {
+    if (!(distance <= tolerance)) {
       r.reason = "an atom at " + place(s->x) + " is " + number(distance) +
                  " from where the laws of reflection and refraction put it";
     }
   }
   r.estimate = r.bound = worst;
-  r.verdict = worst <= r.tolerance ? Verdict::pass : Verdict::fail;
+  r.verdict = worst <= tolerance ? Verdict::pass : Verdict::fail;
+  r.seconds = watch.seconds();
   return r;
 }
 

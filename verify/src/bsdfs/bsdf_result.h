@@ -7,11 +7,11 @@
 namespace plumbline::verify {
 
 /// The empty result of a check of a BSDF.
-inline CheckResult bsdf_result(const char* check, const std::string& name,
+inline CheckResult bsdf_result(CheckKind kind, const std::string& name,
                                const ContractOptions& options) {
   CheckResult r;
-  r.check = check;
-  r.subject = name + "/" + check;
+  r.kind = kind;
+  r.subject = name + "/" + std::string(to_string(kind));
   r.seed = options.seed;
   return r;
 }

@@ -19,9 +19,10 @@ namespace plumbline::verify {
 namespace {
 
 constexpr const char* kBlackEverywhere =
-    "no direction gives any sample, so that nothing was tested: are the frame and the side that "
-    "the given direction points to as the conventions say, and is it looked at from a side that "
-    "it scatters on?";
+    "no direction gives any sample, so that nothing was tested";
+constexpr const char* kWhyBlack =
+    "see that the frame and the side that the given direction points to are as the conventions "
+    "say, and that it is looked at from a side that it scatters on";
 
 /// A direction to look from, with the name that results carry.
 struct View {
@@ -69,9 +70,8 @@ BsdfOptions for_view(BsdfOptions options, std::size_t view) {
 
 }  // namespace
 
-std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& bsdf,
-                                    const BsdfOptions& options) {
-  std::vector<CheckResult> all;
+Report check_bsdf(const std::string& name, const ErasedBsdf& bsdf, const BsdfOptions& options) {
+  Report all;
   ReportEvidence evidence;
   std::deque<SamplingPair> pairs;  // what the evidence points to
   const std::vector<View> views = views_of(options);
@@ -95,15 +95,15 @@ std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& b
     if (outcome.atoms) results.push_back(check_atoms(subject, bsdf, view.wo, here));
     for (CheckResult& r : results) {
       if (!r.as_expected()) r.reason += "; wo = " + place(view.wo) + ", z the normal";
-      all.push_back(std::move(r));
+      all.results.push_back(std::move(r));
     }
   }
   if (options.reciprocal) {
     ReciprocityOutcome outcome = judge_reciprocity(name, bsdf, options);
     evidence.reciprocity = std::move(outcome.pairs);
-    all.push_back(std::move(outcome.result));
+    all.results.push_back(std::move(outcome.result));
   }
-  if (black) all.push_back(nothing_sampled(name, options.contract, kBlackEverywhere));
+  if (black) all.results.push_back(nothing_sampled(name, options.contract, kBlackEverywhere, kWhyBlack));
   const bool failed = std::any_of(all.begin(), all.end(),
                                   [](const CheckResult& r) { return r.verdict == Verdict::fail; });
   if (failed) name_cause(diagnose(evidence), all);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <plumbline/verify/bsdf.h>
+#include <plumbline/verify/detail/stopwatch.h>
 
 #include "bsdfs/bsdf_checks.h"
 #include "bsdfs/bsdf_result.h"
@@ -52,14 +53,15 @@ std::size_t brightest_channel(const SamplingPair& pair, std::uint64_t seed) {
 AlbedoAt albedo_seen(const CheckResult& energy, const Vec3& wo, const BsdfOptions& options) {
   AlbedoAt seen;
   seen.wo = wo;
-  seen.albedo = energy.estimate;
-  seen.error = (energy.interval_high - energy.interval_low) / 2;
+  seen.albedo = energy.estimate.value_or(0);
+  if (energy.interval) seen.error = (energy.interval->high - energy.interval->low) / 2;
   if (options.albedo) seen.known = energy.reference;
   return seen;
 }
 
 CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const Vec3& wo,
                          const BsdfOptions& options) {
+  const Stopwatch watch;
   const SamplingPair pair = bsdf_pair(name, bsdf, wo, options);
   const std::uint64_t seed = options.contract.seed;
   const std::size_t channel = options.albedo ? 0 : brightest_channel(pair, seed);
@@ -71,29 +73,32 @@ CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const 
       integrate_over_domain(pair, value, options.contract, options.energy_tolerance / 4);
   const double atoms = atoms_albedo(pair, wo, options.eta, channel, seed);
 
-  CheckResult r = bsdf_result("energy", name, options.contract);
-  r.estimate = integral.total + atoms;
-  r.reference = options.albedo ? options.albedo(wo) : 1.0;
-  r.tolerance = options.energy_tolerance;
   const ErrorBudget& budget = options.contract.budget;
   const double known_to = integral.error(budget.pass_level());
   const double sure_to = integral.error(budget.fail_level());
-  r.interval_low = r.estimate - known_to;
-  r.interval_high = r.estimate + known_to;
+  const double albedo = integral.total + atoms, tolerance = options.energy_tolerance;
+  const double reference = options.albedo ? options.albedo(wo) : 1.0;
+  const double excess = options.albedo ? std::abs(albedo - reference) : albedo - reference;
+  const double bound = std::max(0.0, excess + known_to);
+  CheckResult r = bsdf_result(CheckKind::energy, name, options.contract);
+  r.estimate = albedo;
+  r.reference = reference;
+  r.tolerance = tolerance;
+  r.bound = bound;
+  r.interval = {albedo - known_to, albedo + known_to};
   r.leaned_on = "random nodes, empirical Bernstein bound";
-  r.figures = {{"from atoms", atoms}, {"error of the integral", known_to}};
-  const double excess =
-      options.albedo ? std::abs(r.estimate - r.reference) : r.estimate - r.reference;
-  r.bound = std::max(0.0, excess + known_to);
-  if (!(excess - sure_to <= r.tolerance)) {
+  r.figures = {{Figure::albedo_of_atoms, atoms}, {Figure::integral_error, known_to}};
+  if (!(excess - sure_to <= tolerance)) {
     r.verdict = Verdict::fail;
-    r.reason = "the albedo is " + number(r.estimate) +
-               (options.albedo ? ", it should be " + number(r.reference) : ", more than 1");
-  } else if (r.bound <= r.tolerance) {
+    r.reason = "the albedo is " + number(albedo) +
+               (options.albedo ? ", it should be " + number(reference) : ", more than 1");
+  } else if (bound <= tolerance) {
     r.verdict = Verdict::pass;
   } else {
-    r.reason = "the albedo is known to " + number(known_to) + " only: allow more `evaluations`";
+    r.reason = "the albedo is known to " + number(known_to) + " only";
+    r.advice = "allow more `evaluations`, or state a larger energy_tolerance";
   }
+  r.seconds = watch.seconds();
   return r;
 }
 

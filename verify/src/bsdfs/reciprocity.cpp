@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plumbline/verify/bsdf.h>
+#include <plumbline/verify/detail/stopwatch.h>
 
 #include "bsdfs/bsdf_checks.h"
 #include "bsdfs/bsdf_result.h"
@@ -53,7 +54,7 @@ class Reciprocity {
   Reciprocity(const std::string& name, const ErasedBsdf& bsdf, const BsdfOptions& options)
       : bsdf_(bsdf),
         options_(options),
-        result_(bsdf_result("reciprocity", name, options.contract)) {}
+        result_(bsdf_result(CheckKind::reciprocity, name, options.contract)) {}
 
   ReciprocityOutcome run() {
     for (const BothWays& pair : draw_pairs()) judge(pair);
@@ -61,7 +62,7 @@ class Reciprocity {
     result_.tolerance = stated_tolerance(bsdf_.epsilon);
     result_.estimate = result_.bound = worst_;
     result_.leaned_on = "points tested";
-    result_.figures = {{"pairs with a value", judged_}, {"explained by rounding", explained_}};
+    result_.figures = {{Figure::pairs_with_value, judged_}, {Figure::explained_by_rounding, explained_}};
     if (failed_ > 0) {
       result_.verdict = Verdict::fail;
       result_.reason += " (" + number(failed_) + " of " + number(judged_) + " pairs fail)";
@@ -75,6 +76,7 @@ class Reciprocity {
     } else {
       result_.verdict = Verdict::pass;
     }
+    result_.seconds = watch_.seconds();
     return {std::move(result_), std::move(seen_)};
   }
 
@@ -148,6 +150,7 @@ class Reciprocity {
     seen_.push_back({p.wo, p.wi, ratio, std::isfinite(error) ? error : 1.0});
   }
 
+  const Stopwatch watch_;
   const ErasedBsdf& bsdf_;
   const BsdfOptions& options_;
   CheckResult result_;

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <plumbline/verify/detail/stopwatch.h>
 #include <plumbline/verify/image.h>
 
 #include "distributions.h"
@@ -109,9 +110,11 @@ void judge_scale(const TileScale& scale, double level, CheckResult& check) {
       worst = i;
     }
   }
-  const std::string name =
-      scale.edge == 1 ? std::string("pixels") : "tiles of " + std::to_string(scale.edge);
-  check.figures.emplace_back(name + " judged", tested);
+  if (scale.edge == 1) {
+    check.figures.emplace_back(Figure::pixels_judged, tested);
+  } else {
+    check.figures.emplace_back("tiles of " + std::to_string(scale.edge) + " judged", tested);
+  }
   if (tested == 0 || !(scale.tests[worst].p_safe * tested < level)) return;
   const int x = static_cast<int>(worst) % scale.width, y = static_cast<int>(worst) / scale.width;
   const std::string where =
@@ -120,9 +123,7 @@ void judge_scale(const TileScale& scale, double level, CheckResult& check) {
       std::to_string(x * scale.edge) + ", " + std::to_string(y * scale.edge) + ") is " +
       number(scale.tests[worst].z) + " standard errors off";
   check.verdict = Verdict::fail;
-  check.p_value = std::isnan(check.p_value)
-                      ? scale.tests[worst].p_safe * tested
-                      : std::min(check.p_value, scale.tests[worst].p_safe * tested);
+  check.p_value = std::min(check.p_value.value_or(1), scale.tests[worst].p_safe * tested);
   check.reason += (check.reason.empty() ? "" : "; ") + where;
 }
 
@@ -147,7 +148,7 @@ void fill_map(const TileScale& scale, ImageResult& result) {
     share /= known;
   }
   if (expected >= 5) {
-    result.check.figures.emplace_back("p-value of a flat histogram",
+    result.check.figures.emplace_back(Figure::histogram_p_value,
                                       chi_square_tail(statistic, kHistogramBins - 1));
   }
 }
@@ -164,6 +165,7 @@ std::vector<int> tile_edges(int width, int height) {
 
 ImageResult check_image(const ImageOptions& options, const Image& image, const Image& reference) {
   validate(options, image, reference);
+  const Stopwatch watch;
   ImageResult result;
   CheckResult& check = result.check;
   const bool finite = all_finite(image.mean) && all_finite(reference.mean);
@@ -184,10 +186,11 @@ ImageResult check_image(const ImageOptions& options, const Image& image, const I
     check.verdict = Verdict::fail;
     check.reason = "a pixel of the image or of the reference is not finite";
   }
-  check.check = "image";
+  check.kind = CheckKind::image;
   check.subject = options.subject;
   check.expected = options.expected;
   check.seed = options.seed;
+  check.seconds = watch.seconds();
   return result;
 }
 

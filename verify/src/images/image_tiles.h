@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <plumbline/verify/image.h>
@@ -30,12 +31,13 @@ struct SumSkewness {
 };
 SumSkewness sum_skewness(const std::vector<double>& residuals);
 
-/// One tile's verdict on the hypothesis of no bias.
+/// One tile's verdict on the hypothesis of no bias; NaN where nothing can be said.
 struct TileTest {
-  double p_plain =
-      kNotApplicable;  ///< own variance only: uniform without bias; for map and histogram
-  double p_safe = kNotApplicable;  ///< the less extreme of own and neighbourhood's variance
-  double z = kNotApplicable;       ///< of p_safe
+  /// Own variance only: uniform without bias; for map and histogram.
+  double p_plain = std::numeric_limits<double>::quiet_NaN();
+  /// The less extreme of own and neighbourhood's variance.
+  double p_safe = std::numeric_limits<double>::quiet_NaN();
+  double z = std::numeric_limits<double>::quiet_NaN();  ///< of p_safe
 };
 
 /// All tiles of one edge length.

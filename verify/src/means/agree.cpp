@@ -30,6 +30,7 @@ CheckResult check_agreement(const MeanOptions& options, const MomentSampler& a,
     throw std::invalid_argument("agreement check '" + options.subject +
                                 "': needs a positive tolerance");
   }
+  const Stopwatch watch;
   const LookPlan plan = plan_looks(options.n0, options.max_samples, options.budget);
   Moments moments_a, moments_b;
   CheckResult result;
@@ -44,12 +45,13 @@ CheckResult check_agreement(const MeanOptions& options, const MomentSampler& a,
                         difference(evidence(moments_a), evidence(moments_b)));
     if (result.verdict != Verdict::inconclusive) break;
   }
-  result.check = "agreement";
+  result.kind = CheckKind::agreement;
+  result.seconds = watch.seconds();
   result.subject = options.subject;
   result.expected = options.expected;
   result.seed = options.seed;
-  result.figures.insert(result.figures.begin(),
-                        {{"mean of a", moments_a.mean()}, {"mean of b", moments_b.mean()}});
+  result.figures.insert(result.figures.begin(), {{Figure::mean_of_a, moments_a.mean()},
+                                                 {Figure::mean_of_b, moments_b.mean()}});
   return result;
 }
 

@@ -56,7 +56,7 @@ MeanCheck::MeanCheck(MeanOptions options)
     throw std::invalid_argument("mean check '" + options_.subject +
                                 "': where the reference is 0 the tolerance is absolute");
   }
-  if (options_.exact_variance < 0) {
+  if (options_.exact_variance.value_or(0) < 0) {
     throw std::invalid_argument("mean check '" + options_.subject + "': negative variance");
   }
 }
@@ -96,7 +96,8 @@ void MeanCheck::judge(const Evidence& evidence, std::size_t look) {
   question.last_fail_level = plan_.fail_level.back();
   question.max_samples = plan_.samples.back();
   result_ = judge_mean(question, evidence);
-  result_.check = "mean";
+  result_.kind = CheckKind::mean;
+  result_.seconds = watch_.seconds();
   result_.subject = options_.subject;
   result_.expected = options_.expected;
   result_.seed = options_.seed;

@@ -33,6 +33,10 @@ double hall_inverse(double z, double skewness) {
   return 3 * (std::cbrt(1 + g * (z - g / 6)) - 1) / g;
 }
 
+bool knows_variance(const MeanQuestion& q) {
+  return q.exact_variance && std::isfinite(*q.exact_variance);
+}
+
 /// Samples that differ by less than the tolerance: no normal approximation is needed, or trusted,
 /// to bound their mean. Rounding noise with rare larger errors is of this kind.
 bool is_nearly_constant(const Evidence& e, double tolerance) {
@@ -109,7 +113,7 @@ double hidden_bias(double value, std::uint64_t n, double level) {
 void judge_zeros(const MeanQuestion& q, const Evidence& e, CheckResult& r) {
   const double distance = std::abs(q.reference);
   r.bound = distance;
-  r.interval_low = r.interval_high = 0;
+  r.interval = {0, 0};
   if (distance <= q.rounding_allowance) {
     r.p_value = 1;
     if (e.samples >= kEnoughZerosToPass && distance <= q.tolerance) {
@@ -125,11 +129,12 @@ void judge_zeros(const MeanQuestion& q, const Evidence& e, CheckResult& r) {
 
 /// Equal samples away from the answer, under an exact variance: fails when that is too improbable.
 bool judge_improbable(const MeanQuestion& q, const Evidence& e, double excess, CheckResult& r) {
-  if (!std::isfinite(q.exact_variance) || !(q.exact_variance > 0) || !(excess > 0)) return false;
+  if (!knows_variance(q) || !(*q.exact_variance > 0) || !(excess > 0)) return false;
   r.leaned_on = "exact variance";
-  r.p_value = chance_of_distance(q.exact_variance, excess, e.samples);
+  const double p = chance_of_distance(*q.exact_variance, excess, e.samples);
+  r.p_value = p;
   r.bound = std::abs(e.estimate - q.reference);
-  if (r.p_value <= q.fail_level) r.verdict = Verdict::fail;
+  if (p <= q.fail_level) r.verdict = Verdict::fail;
   r.reason = "all " + number(e.samples) + " samples equal " + number(e.estimate) +
              ", the answer is " + number(q.reference);
   return true;
@@ -155,9 +160,9 @@ void judge_nearly_constant(const MeanQuestion& q, const Evidence& e, CheckResult
     return hoeffding(range, n, level) + hidden_bias(e.estimate, n, level);
   };
   const double half_width = doubt(e.samples, q.pass_level);
-  r.bound = distance + half_width;
-  r.interval_low = e.estimate - half_width;
-  r.interval_high = e.estimate + half_width;
+  const double bound = distance + half_width;
+  r.bound = bound;
+  r.interval = {e.estimate - half_width, e.estimate + half_width};
   r.detectable = q.rounding_allowance + doubt(q.max_samples, q.last_fail_level);
   r.p_value =
       excess > 0
@@ -171,7 +176,7 @@ void judge_nearly_constant(const MeanQuestion& q, const Evidence& e, CheckResult
     r.verdict = Verdict::fail;
     r.reason =
         "all samples are close to " + number(e.estimate) + ", the answer is " + number(q.reference);
-  } else if (excess <= hoeffding(range, e.samples, q.pass_level) && r.bound <= q.tolerance) {
+  } else if (excess <= hoeffding(range, e.samples, q.pass_level) && bound <= q.tolerance) {
     r.verdict = Verdict::pass;
   } else {
     r.reason = "all samples are close to " + number(e.estimate) + "; " + number(e.samples) +
@@ -193,9 +198,9 @@ void judge_difference(const MeanQuestion& q, const Evidence& e, const std::strin
                       CheckResult& r) {
   const Interval pass = mean_interval(e, q.pass_level);
   const Interval fail = mean_interval(e, q.fail_level / 2);
-  r.interval_low = pass.low;
-  r.interval_high = pass.high;
-  r.bound = std::max(pass.high - q.reference, q.reference - pass.low);
+  const double bound = std::max(pass.high - q.reference, q.reference - pass.low);
+  r.interval = pass;
+  r.bound = bound;
   r.p_value = mean_p_value(e, q.reference);
   r.detectable = detectable_bias(q, e);
   if (!doubt.empty()) {
@@ -206,10 +211,10 @@ void judge_difference(const MeanQuestion& q, const Evidence& e, const std::strin
     r.reason = "estimate " + number(e.estimate) + " is " +
                number(std::abs(e.estimate - q.reference) / e.standard_error) +
                " standard errors from the answer " + number(q.reference);
-  } else if (!(r.bound <= q.tolerance)) {
+  } else if (!(bound <= q.tolerance)) {
     r.reason = "neither a difference nor |bias| <= " + number(q.tolerance) + " is proven after " +
                number(e.samples) + " samples";
-  } else if (!std::isfinite(q.exact_variance) && !(e.tail_index > kTailLimit)) {
+  } else if (!knows_variance(q) && !(e.tail_index > kTailLimit)) {
     r.reason = "the largest samples fall off with index " + number(e.tail_index) +
                " or less: the variance looks infinite";
   } else {
@@ -247,28 +252,29 @@ CheckResult judge_mean(const MeanQuestion& q, const Evidence& seen) {
   r.reference = q.reference;
   r.tolerance = q.tolerance;
   r.samples = seen.samples;
-  r.figures = {{"standard error", seen.standard_error},
-               {"skewness of the estimate", seen.skewness},
-               {"largest share", seen.largest_share},
-               {"rejected", static_cast<double>(seen.rejected)},
-               {"non-finite", static_cast<double>(seen.non_finite)}};
+  r.figures = {{Figure::standard_error, seen.standard_error},
+               {Figure::skewness, seen.skewness},
+               {Figure::largest_share, seen.largest_share},
+               {Figure::rejected, static_cast<double>(seen.rejected)},
+               {Figure::non_finite, static_cast<double>(seen.non_finite)}};
   if (seen.non_finite > 0 || !std::isfinite(seen.estimate) || !std::isfinite(seen.standard_error)) {
     r.verdict = Verdict::fail;
     r.reason = number(seen.non_finite) + " of " + number(seen.samples + seen.non_finite) +
                " samples were not finite";
     return r;
   }
-  const bool exact = std::isfinite(q.exact_variance);
+  const bool exact = knows_variance(q);
   if (is_nearly_constant(seen, q.tolerance)) {
     judge_nearly_constant(q, seen, r);
     return r;
   }
-  const Evidence e = exact ? with_exact_variance(seen, q.exact_variance) : seen;
+  const Evidence e = exact ? with_exact_variance(seen, *q.exact_variance) : seen;
   r.leaned_on = exact ? "exact variance" : "skewness guard";
   std::string doubt = guard(e);
   if (doubt.empty() && exact) doubt = exact_variance_doubt(seen, e);
   if (doubt.empty() && !exact && misses_most(q, seen)) doubt = most_is_missing(q, seen);
-  if (std::isinf(q.exact_variance)) doubt = "the variance is known to be infinite";
+  if (q.exact_variance && std::isinf(*q.exact_variance))
+    doubt = "the variance is known to be infinite";
   judge_difference(q, e, doubt, r);
   return r;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <plumbline/verify/detail/result.h>
 #include <plumbline/verify/mean.h>
@@ -13,15 +14,11 @@ struct MeanQuestion {
   double reference = 0;
   double tolerance = 0;
   double rounding_allowance = 0;
-  double exact_variance = kNotApplicable;  ///< of one sample
-  double fail_level = 0;                   ///< two-sided, at this look
-  double pass_level = 0;                   ///< one-sided, at this look
-  double last_fail_level = 0;              ///< two-sided, at the last look
-  std::uint64_t max_samples = 0;           ///< at the last look
-};
-
-struct Interval {
-  double low, high;
+  std::optional<double> exact_variance;  ///< of one sample
+  double fail_level = 0;                 ///< two-sided, at this look
+  double pass_level = 0;                 ///< one-sided, at this look
+  double last_fail_level = 0;            ///< two-sided, at the last look
+  std::uint64_t max_samples = 0;         ///< at the last look
 };
 
 /// estimate ± quantile · error, each end moved outwards where the skewness of the estimate asks for
@@ -41,7 +38,8 @@ Interval mean_interval(const Evidence& evidence, double level);
 /// one and the one corrected for skewness.
 double mean_p_value(const Evidence& evidence, double reference);
 
-/// Fills in verdict, numbers and reasons; check, subject, expected and seed are left to the caller.
+/// Fills in verdict, numbers and reasons; kind, subject, expected, seconds and seed are left to the
+/// caller.
 CheckResult judge_mean(const MeanQuestion& question, const Evidence& evidence);
 
 }  // namespace plumbline::verify

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <plumbline/verify/detail/stopwatch.h>
 #include <plumbline/verify/ratio.h>
 
 #include "distributions.h"
@@ -11,13 +12,9 @@ namespace plumbline::verify {
 
 namespace {
 
-struct Interval {
-  double low = 0, high = 1;
-};
-
 /// @param level  one-sided, of each end
 Interval clopper_pearson(double hits, double trials, double level) {
-  Interval interval;
+  Interval interval{0, 1};
   if (hits > 0) interval.low = beta_quantile(level, hits, trials - hits + 1);
   if (hits < trials) interval.high = beta_quantile(1 - level, hits + 1, trials - hits);
   return interval;
@@ -42,21 +39,21 @@ CheckResult check_proportion(const ProportionOptions& o, std::uint64_t hits, std
     throw std::invalid_argument("proportion check '" + o.subject +
                                 "': needs hits ≤ trials ≥ 1 and 0 ≤ at_least ≤ at_most ≤ 1");
   }
+  const Stopwatch watch;
   const double k = static_cast<double>(hits), n = static_cast<double>(trials);
   const Interval proven = clopper_pearson(k, n, o.budget.pass_level() / 2);
   const Interval sure = clopper_pearson(k, n, o.budget.fail_level() / 2);
   CheckResult r;
-  r.check = "proportion";
+  r.kind = CheckKind::proportion;
   r.subject = o.subject;
   r.expected = o.expected;
   r.seed = o.seed;
   r.samples = trials;
   r.estimate = k / n;
-  r.interval_low = proven.low;
-  r.interval_high = proven.high;
-  r.p_value = claim_p_value(o, r.estimate, k, n);
+  r.interval = proven;
+  r.p_value = claim_p_value(o, k / n, k, n);
   r.leaned_on = "exact binomial interval";
-  r.figures = {{"hits", k}, {"at least", o.at_least}, {"at most", o.at_most}};
+  r.figures = {{Figure::hits, k}, {Figure::at_least, o.at_least}, {Figure::at_most, o.at_most}};
   if (sure.low > o.at_most) {
     r.verdict = Verdict::fail;
     r.reason =
@@ -69,7 +66,9 @@ CheckResult check_proportion(const ProportionOptions& o, std::uint64_t hits, std
     r.verdict = Verdict::pass;
   } else {
     r.reason = "the interval straddles the claim";
+    r.advice = "more trials narrow it";
   }
+  r.seconds = watch.seconds();
   return r;
 }
 

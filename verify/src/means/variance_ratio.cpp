@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include <plumbline/verify/detail/stopwatch.h>
 #include <plumbline/verify/ratio.h>
 
 #include "distributions.h"
@@ -102,51 +103,52 @@ double claim_p_value(const VarianceRatioOptions& options, double log_ratio,
     return student_two_sided(skewed_statistic(t, jackknifed.skewness), degrees);
   };
   double p = 1;
-  if (std::isfinite(options.at_least) && log_ratio < std::log(options.at_least)) {
-    p = p_at(options.at_least);
-  }
-  if (std::isfinite(options.at_most) && log_ratio > std::log(options.at_most)) {
-    p = std::min(p, p_at(options.at_most));
+  if (options.at_least && log_ratio < std::log(*options.at_least)) p = p_at(*options.at_least);
+  if (options.at_most && log_ratio > std::log(*options.at_most)) {
+    p = std::min(p, p_at(*options.at_most));
   }
   return p;
 }
 
-void judge_claim(const VarianceRatioOptions& options, double fail_low, double fail_high,
+/// @param proven  interval of a pass
+/// @param sure    interval of a fail
+void judge_claim(const VarianceRatioOptions& options, const Interval& proven, const Interval& sure,
                  CheckResult& r) {
-  const bool breaks_low = std::isfinite(options.at_least) && fail_high < options.at_least;
-  const bool breaks_high = std::isfinite(options.at_most) && fail_low > options.at_most;
-  const bool keeps_low = !std::isfinite(options.at_least) || r.interval_low >= options.at_least;
-  const bool keeps_high = !std::isfinite(options.at_most) || r.interval_high <= options.at_most;
+  const bool breaks_low = options.at_least && sure.high < *options.at_least;
+  const bool breaks_high = options.at_most && sure.low > *options.at_most;
+  const bool keeps_low = !options.at_least || proven.low >= *options.at_least;
+  const bool keeps_high = !options.at_most || proven.high <= *options.at_most;
   if (breaks_low) {
     r.verdict = Verdict::fail;
-    r.reason = "the ratio is at most " + number(fail_high) + ", the claim is at least " +
-               number(options.at_least);
+    r.reason = "the ratio is at most " + number(sure.high) + ", the claim is at least " +
+               number(*options.at_least);
   } else if (breaks_high) {
     r.verdict = Verdict::fail;
-    r.reason = "the ratio is at least " + number(fail_low) + ", the claim is at most " +
-               number(options.at_most);
+    r.reason = "the ratio is at least " + number(sure.low) + ", the claim is at most " +
+               number(*options.at_most);
   } else if (keeps_low && keeps_high) {
     r.verdict = Verdict::pass;
   } else {
     r.reason = "the interval straddles the claim";
+    r.advice = "larger batches narrow it, all of them";
   }
 }
 
 CheckResult judge_ratio(const VarianceRatioOptions& options, const LeaveOneOut& a,
                         const LeaveOneOut& b) {
   CheckResult r;
-  r.check = "variance_ratio";
+  r.kind = CheckKind::variance_ratio;
   r.subject = options.subject;
   r.expected = options.expected;
   r.seed = options.seed;
   r.samples = a.samples + b.samples;
   r.leaned_on = "jackknife over " + number(std::uint64_t{a.without.size()}) + " batches";
   r.estimate = a.all / b.all;
-  r.reference = std::isfinite(options.at_least) ? options.at_least : options.at_most;
-  r.figures = {{"variance of a", a.all},
-               {"variance of b", b.all},
-               {"largest batch's share of a", a.largest_share},
-               {"largest batch's share of b", b.largest_share}};
+  r.reference = options.at_least ? options.at_least : options.at_most;
+  r.figures = {{Figure::variance_of_a, a.all},
+               {Figure::variance_of_b, b.all},
+               {Figure::largest_batch_of_a, a.largest_share},
+               {Figure::largest_batch_of_b, b.largest_share}};
   if (a.non_finite + b.non_finite > 0) {
     r.verdict = Verdict::fail;
     r.reason = number(a.non_finite + b.non_finite) + " samples or batches were not finite";
@@ -157,7 +159,7 @@ CheckResult judge_ratio(const VarianceRatioOptions& options, const LeaveOneOut& 
     return r;
   }
   const double degrees = static_cast<double>(a.without.size() - 1);
-  const double log_ratio = std::log(r.estimate);
+  const double log_ratio = std::log(a.all / b.all);
   const JackknifedLog jackknifed = jackknife(a, b);
   const double error = jackknifed.error;
   const auto interval = [&](double level) {
@@ -165,19 +167,21 @@ CheckResult judge_ratio(const VarianceRatioOptions& options, const LeaveOneOut& 
   };
   const Interval pass = interval(options.budget.pass_level() / 2);
   const Interval fail = interval(options.budget.fail_level() / 2);
-  r.interval_low = std::exp(pass.low);
-  r.interval_high = std::exp(pass.high);
+  const Interval proven{std::exp(pass.low), std::exp(pass.high)};
+  r.interval = proven;
   r.p_value = claim_p_value(options, log_ratio, jackknifed, degrees);
   // As a factor: a ratio this far beyond the claim fails with 99 % probability.
   r.detectable = std::exp(std::max(fail.high - log_ratio, log_ratio - fail.low) +
                           student_quantile(0.01, degrees) * error);
   if (!std::isfinite(error)) {
     r.reason = "a single batch holds all of a variance";
+    r.advice = "larger batches, until several of them vary";
   } else if (!(std::max(a.largest_share, b.largest_share) <= kShareLimit)) {
     r.reason = "one batch carries " + number(100 * std::max(a.largest_share, b.largest_share)) +
                " % of a variance (limit 25 %): its tail decides the ratio";
+    r.advice = "more and larger batches, until no single sample carries a variance";
   } else {
-    judge_claim(options, std::exp(fail.low), std::exp(fail.high), r);
+    judge_claim(options, proven, {std::exp(fail.low), std::exp(fail.high)}, r);
   }
   return r;
 }
@@ -189,7 +193,10 @@ CheckResult check(const VarianceRatioOptions& options, std::span<const Batch> a,
     throw std::invalid_argument("variance ratio '" + options.subject +
                                 "': needs equally many batches of a and b, at least 16");
   }
-  return judge_ratio(options, leave_one_out(a), leave_one_out(b));
+  const Stopwatch watch;
+  CheckResult result = judge_ratio(options, leave_one_out(a), leave_one_out(b));
+  result.seconds = watch.seconds();
+  return result;
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <plumbline/verify/detail/stopwatch.h>
+
 #include "pairs/binned_pair.h"
 #include "pairs/chi_square_look.h"
 #include "pairs/integral_check.h"
@@ -79,10 +81,14 @@ PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options)
   const std::size_t jacobian_at = results.size();
   results.push_back(jacobian.result);
 
+  Stopwatch watch;
   BinnedPair binned(pair, options);
   const RejectedShare rejected = measure_rejected(pair, options.seed);
+  const double integration = watch.lap();
   CheckResult chi_square = run_chi_square(options, binned, rejected);
+  chi_square.seconds = watch.lap();
   CheckResult integral = judge_integral(options, binned, rejected);
+  integral.seconds = integration + watch.lap();
   if (jacobian.below_everywhere && integral.verdict == Verdict::pass &&
       chi_square.verdict == Verdict::pass) {
     skip_single_branches(results[jacobian_at]);
@@ -102,37 +108,40 @@ PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options)
           !counts.atoms.empty()};
 }
 
-void name_cause(const Cause& cause, std::vector<CheckResult>& results) {
-  std::string text = cause.headline;
-  if (!cause.second.empty()) text += "; or: " + cause.second;
-  for (CheckResult& r : results) {
-    if (r.verdict == Verdict::fail) r.diagnosis = text;
+void name_cause(const Cause& cause, Report& report) {
+  report.cause = cause.headline;
+  report.second_cause = cause.second;
+  report.cause_kind = cause.kind;
+  for (CheckResult& r : report) {
+    if (r.verdict != Verdict::fail) continue;
+    r.diagnosis = cause.headline;
+    r.cause = cause.kind;
   }
 }
 
 CheckResult nothing_sampled(const std::string& name, const ContractOptions& options,
-                            const std::string& advice) {
+                            const std::string& reason, const std::string& advice) {
   CheckResult r;
-  r.check = "samples";
+  r.kind = CheckKind::samples;
   r.subject = name + "/samples";
   r.seed = options.seed;
-  r.reason = advice;
+  r.reason = reason;
+  r.advice = advice;
   return r;
 }
 
-std::vector<CheckResult> check_pair(const SamplingPair& pair, const ContractOptions& options) {
+Report check_pair(const SamplingPair& pair, const ContractOptions& options) {
   PairOutcome outcome = judge_pair(pair, options);
+  Report report(std::move(outcome.results));
   if (outcome.nothing) {
-    outcome.results.push_back(nothing_sampled(
-        pair.name, options,
-        "the sampler rejected every random number, so that nothing was tested: does it take them "
-        "as it is given them, and is what it is asked about (direction, side, light) one that it "
-        "samples?"));
+    report.results.push_back(
+        nothing_sampled(pair.name, options,
+                        "the sampler rejected every random number, so that nothing was tested",
+                        "see that it takes them as it is given them, and that what it is asked "
+                        "about (direction, side, light) is one that it samples"));
   }
-  if (outcome.view.failed) {
-    name_cause(diagnose({{std::move(outcome.view)}, {}, {}}), outcome.results);
-  }
-  return std::move(outcome.results);
+  if (outcome.view.failed) name_cause(diagnose({{std::move(outcome.view)}, {}, {}}), report);
+  return report;
 }
 
 }  // namespace plumbline::verify

@@ -24,11 +24,10 @@ PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options)
 /// Inconclusive: nothing is wrong with black, and every check of it passes, but more often than not
 /// something else is meant.
 ///
-/// @param advice  what may be wrong, for a person
 CheckResult nothing_sampled(const std::string& name, const ContractOptions& options,
-                            const std::string& advice);
+                            const std::string& reason, const std::string& advice);
 
-/// All failing results get the cause: they share one.
-void name_cause(const Cause& cause, std::vector<CheckResult>& results);
+/// The report and all its failing results get the cause: they share one.
+void name_cause(const Cause& cause, Report& report);
 
 }  // namespace plumbline::verify

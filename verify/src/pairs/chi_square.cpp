@@ -3,6 +3,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include <plumbline/verify/detail/stopwatch.h>
+
 #include "distributions.h"
 #include "pairs/chi_square_look.h"
 #include "pairs/integral_check.h"
@@ -168,7 +170,7 @@ const LevelTest& ChiSquareLook::worst() const {
 CheckResult ChiSquareLook::result() const {
   CheckResult r;
   const BinCounts& counts = pair_.counts();
-  r.check = "chi_square";
+  r.kind = CheckKind::chi_square;
   r.samples = counts.drawn;
   r.tolerance = options_.deviation;
   r.bound = bound_;
@@ -176,13 +178,13 @@ CheckResult ChiSquareLook::result() const {
   r.p_value =
       std::min(1.0, std::min(worst().p_value, atoms_p_) * static_cast<double>(levels_.size() + 1));
   r.leaned_on = "bin masses with their sampling error";
-  r.figures = {{"integral of the pdf", pair_.expected().total},
-               {"rejected", static_cast<double>(counts.rejected)},
-               {"atoms", static_cast<double>(counts.atoms.size())},
-               {"chi-square", worst().statistic},
-               {"degrees of freedom", worst().degrees},
-               {"bins", std::exp2(worst().depth)},
-               {"unresolved share", levels_.front().unresolved}};
+  r.figures = {{Figure::integral_of_pdf, pair_.expected().total},
+               {Figure::rejected, static_cast<double>(counts.rejected)},
+               {Figure::atoms, static_cast<double>(counts.atoms.size())},
+               {Figure::chi_square, worst().statistic},
+               {Figure::degrees_of_freedom, worst().degrees},
+               {Figure::bins, std::exp2(worst().depth)},
+               {Figure::unresolved_share, levels_.front().unresolved}};
   judge(r);
   return r;
 }
@@ -223,13 +225,16 @@ void ChiSquareLook::judge(CheckResult& r) const {
   if (r.verdict == Verdict::fail) return;
   if (levels_.front().unresolved > kMostUnresolved) {
     r.reason = "the masses of bins that hold " + number(levels_.front().unresolved) +
-               " of the samples are not known well enough: state where the density jumps "
-               "(Domain::with_breaks, equirectangular, octahedral), or allow more `evaluations`";
+               " of the samples are not known well enough";
+    r.advice =
+        "state where the density jumps (Domain::with_breaks, equirectangular, octahedral), or allow "
+        "more `evaluations`";
   } else if (bound_ <= options_.deviation) {
     r.verdict = Verdict::pass;
   } else {
     r.reason = "neither a difference nor a deviation below " + number(options_.deviation) +
-               " is proven: allow more `samples`";
+               " is proven";
+    r.advice = "allow more `samples`";
   }
 }
 
@@ -253,8 +258,11 @@ CheckResult check_chi_square(const SamplingPair& pair, const ContractOptions& op
     throw std::invalid_argument("chi-square check '" + pair.name +
                                 "': needs at least 2 bins and a positive deviation to exclude");
   }
+  const Stopwatch watch;
   BinnedPair binned(pair, options);
-  return run_chi_square(options, binned, measure_rejected(pair, options.seed));
+  CheckResult result = run_chi_square(options, binned, measure_rejected(pair, options.seed));
+  result.seconds = watch.seconds();
+  return result;
 }
 
 }  // namespace plumbline::verify

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <plumbline/verify/detail/stopwatch.h>
+
 #include "text.h"
 
 namespace plumbline::verify {
@@ -44,54 +46,56 @@ CheckResult judge_integral(const ContractOptions& options, const BinnedPair& bin
   const MassBalance mass = balance_mass(binned, rejected);
   const double pass_level = options.budget.pass_level(), fail_level = options.budget.fail_level();
   const double known_to = mass.error(pass_level);
+  const double sum = 1 + mass.excess(), bound = std::abs(mass.excess()) + known_to;
+  const double strict = mass_tolerance(options, binned);
+  const bool loose = !options.mass_tolerance && !(bound <= strict);
+  const double tolerance = loose ? kLoosePromise + binned.rounding() : strict;
   CheckResult r;
-  r.check = "integral";
+  r.kind = CheckKind::integral;
   r.subject = binned.pair().name + "/integral";
   r.seed = options.seed;
-  r.estimate = 1 + mass.excess();
+  r.estimate = sum;
   r.reference = 1;
-  r.bound = std::abs(mass.excess()) + known_to;
-  r.tolerance = mass_tolerance(options, binned);
-  if (!options.mass_tolerance && !(r.bound <= r.tolerance)) {
-    r.tolerance = kLoosePromise + binned.rounding();
-  }
-  r.detectable = mass_tolerance(options, binned) + 2 * mass.error(fail_level);
-  r.interval_low = r.estimate - known_to;
-  r.interval_high = r.estimate + known_to;
+  r.bound = bound;
+  r.tolerance = tolerance;
+  r.detectable = strict + 2 * mass.error(fail_level);
+  r.interval = {sum - known_to, sum + known_to};
   r.samples = binned.counts().drawn;
   r.leaned_on = "random nodes, empirical Bernstein bound";
-  r.figures = {{"integral of the pdf", mass.integral.total},
-               {"error of the integral", mass.integral.error(pass_level)},
-               {"atoms", mass.atoms},
-               {"rejected share", mass.rejected.value},
-               {"error of the rejected share", mass.rejected.error(pass_level)},
-               {"rounding", binned.rounding()},
-               {"largest unseen spike, share of the domain", mass.integral.unseen},
-               {"evaluations", static_cast<double>(mass.integral.evaluations)}};
-  if (!mass.integral.finite || !std::isfinite(r.estimate)) {
+  r.figures = {{Figure::integral_of_pdf, mass.integral.total},
+               {Figure::integral_error, mass.integral.error(pass_level)},
+               {Figure::atoms, mass.atoms},
+               {Figure::rejected_share, mass.rejected.value},
+               {Figure::rejected_error, mass.rejected.error(pass_level)},
+               {Figure::rounding, binned.rounding()},
+               {Figure::unseen_spike, mass.integral.unseen},
+               {Figure::evaluations, static_cast<double>(mass.integral.evaluations)}};
+  if (!mass.integral.finite || !std::isfinite(sum)) {
     r.verdict = Verdict::fail;
     r.reason = "the pdf is not finite somewhere";
-  } else if (!(std::abs(mass.excess()) - mass.error(fail_level) <=
-               mass_tolerance(options, binned))) {
+  } else if (!(std::abs(mass.excess()) - mass.error(fail_level) <= strict)) {
     r.verdict = Verdict::fail;
     r.reason = "∫pdf = " + number(mass.integral.total);
     if (mass.atoms > 0) r.reason += ", atoms add " + number(mass.atoms);
     if (mass.rejected.value > 0) {
       r.reason += ", rejected samples add " + number(mass.rejected.value);
     }
-  } else if (r.bound <= r.tolerance) {
+  } else if (bound <= tolerance) {
     r.verdict = Verdict::pass;
   } else {
-    r.reason = "the sum is known to " + number(known_to) +
-               " only: " + advice_for(binned.pair(), mass, pass_level);
+    r.reason = "the sum is known to " + number(known_to) + " only";
+    r.advice = advice_for(binned.pair(), mass, pass_level);
   }
   return r;
 }
 
 CheckResult check_integral(const SamplingPair& pair, const ContractOptions& options) {
+  const Stopwatch watch;
   BinnedPair binned(pair, options);
   binned.draw(kProbes);
-  return judge_integral(options, binned, measure_rejected(pair, options.seed));
+  CheckResult result = judge_integral(options, binned, measure_rejected(pair, options.seed));
+  result.seconds = watch.seconds();
+  return result;
 }
 
 }  // namespace plumbline::verify

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+
+#include <plumbline/verify/detail/stopwatch.h>
 #include <optional>
 
 #include "diagnosis/diagnosis.h"
@@ -48,7 +50,7 @@ class Jacobian {
         random_(random_for(options.seed, Stream::jacobian)),
         tolerance_(pair.epsilon > 0x1p-40 ? kFloatTolerance : kDoubleTolerance) {
     CheckResult& r = outcome_.result;
-    r.check = "jacobian";
+    r.kind = CheckKind::jacobian;
     r.subject = pair.name + "/jacobian";
     r.reference = 0;
     r.tolerance = tolerance_;
@@ -81,6 +83,7 @@ class Jacobian {
   JacobianOutcome skip(const char* reason) {
     outcome_.result.expected = Verdict::inconclusive;
     outcome_.result.reason = reason;
+    outcome_.result.seconds = watch_.seconds();
     return std::move(outcome_);
   }
 
@@ -223,6 +226,7 @@ class Jacobian {
   void finish() {
     CheckResult& r = outcome_.result;
     r.samples = static_cast<std::uint64_t>(usable_);
+    r.seconds = watch_.seconds();
     r.estimate = r.bound = worst_;
     r.detectable = tolerance_ * 2;
     r.figures = {{"points tried", tried_},
@@ -249,6 +253,7 @@ class Jacobian {
   }
 
   const SamplingPair& pair_;
+  const Stopwatch watch_;
   Random random_;
   double tolerance_;
   JacobianOutcome outcome_;

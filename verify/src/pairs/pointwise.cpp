@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+
+#include <plumbline/verify/detail/stopwatch.h>
 #include <numbers>
 
 #include "diagnosis/diagnosis.h"
+#include "pairs/battery.h"
 #include "streams.h"
 #include "text.h"
 
@@ -19,9 +22,9 @@ constexpr double kRounding = 256;
 /// Counts the points where one property holds and where not.
 class Property {
  public:
-  Property(const SamplingPair& pair, const ContractOptions& options, const char* check) {
-    outcome_.result.check = check;
-    outcome_.result.subject = pair.name + "/" + check;
+  Property(const SamplingPair& pair, const ContractOptions& options, CheckKind kind) {
+    outcome_.result.kind = kind;
+    outcome_.result.subject = pair.name + "/" + std::string(to_string(kind));
     outcome_.result.seed = options.seed;
     outcome_.result.reference = 0;
   }
@@ -89,10 +92,10 @@ class Pointwise {
   Pointwise(const SamplingPair& pair, const ContractOptions& options)
       : pair_(pair),
         random_(random_for(options.seed, Stream::pointwise)),
-        record_(pair, options, "record_pdf"),
-        weight_(pair, options, "weight"),
-        support_(pair, options, "support"),
-        finite_(pair, options, "finite"),
+        record_(pair, options, CheckKind::record_pdf),
+        weight_(pair, options, CheckKind::weight),
+        support_(pair, options, CheckKind::support),
+        finite_(pair, options, CheckKind::finite),
         discrete_(pair.domain.dimension() == 0) {
     record_.seen_as(RatioKind::record_over_pdf);
     weight_.seen_as(RatioKind::weight_over_value);
@@ -106,6 +109,9 @@ class Pointwise {
     for (Property* p : {&record_, &weight_, &support_, &finite_}) {
       if (p->tested()) outcomes.push_back(p->finish());
     }
+    // They look at the same points: each gets its share of the time.
+    const double share = watch_.seconds() / static_cast<double>(outcomes.size());
+    for (PointwiseOutcome& outcome : outcomes) outcome.result.seconds = share;
     return outcomes;
   }
 
@@ -273,6 +279,7 @@ class Pointwise {
   }
 
   const SamplingPair& pair_;
+  const Stopwatch watch_;
   Random random_;
   Property record_, weight_, support_, finite_;
   bool discrete_;
@@ -285,21 +292,17 @@ std::vector<PointwiseOutcome> judge_pointwise(const SamplingPair& pair,
   return Pointwise(pair, options).run(options.points);
 }
 
-std::vector<CheckResult> check_pointwise(const SamplingPair& pair, const ContractOptions& options) {
-  std::vector<CheckResult> results;
+Report check_pointwise(const SamplingPair& pair, const ContractOptions& options) {
+  Report report;
   ViewEvidence view;
   view.pair = &pair;
   for (PointwiseOutcome& outcome : judge_pointwise(pair, options)) {
     view.failed = view.failed || outcome.result.verdict == Verdict::fail;
     if (!outcome.ratios.points.empty()) view.ratios.push_back(std::move(outcome.ratios));
-    results.push_back(std::move(outcome.result));
+    report.results.push_back(std::move(outcome.result));
   }
-  if (!view.failed) return results;
-  const Cause cause = diagnose({{std::move(view)}, {}, {}});
-  for (CheckResult& r : results) {
-    if (r.verdict == Verdict::fail) r.diagnosis = cause.headline;
-  }
-  return results;
+  if (view.failed) name_cause(diagnose({{std::move(view)}, {}, {}}), report);
+  return report;
 }
 
 }  // namespace plumbline::verify

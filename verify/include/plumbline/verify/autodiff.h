@@ -15,18 +15,19 @@
 
 #include <plumbline/verify/detail/domain.h>
 #include <plumbline/verify/detail/random.h>
-#include <plumbline/verify/detail/result.h>
+#include <plumbline/verify/detail/report.h>
+#include <plumbline/verify/detail/settings.h>
+#include <plumbline/verify/detail/stopwatch.h>
 #include <plumbline/verify/detail/vector_access.h>
 
 namespace plumbline::verify {
 
 /// What the autodiff Jacobian check is asked.
-struct AutodiffOptions {
+struct AutodiffOptions : CheckSettings {
   int points = 10'000;
   double tolerance = 1e-9;  ///< relative error of pdf·|∂x/∂u|, in double
   double nearest =
       1e-12;  ///< how close u comes to 0 and 1; half of all points are spread towards them
-  std::uint64_t seed = 1;
 };
 
 namespace detail {
@@ -163,8 +164,9 @@ template <class Sample, class Pdf>
 CheckResult check_jacobian_autodiff(const std::string& subject, const Domain& domain,
                                     const Sample& sample, const Pdf& pdf,
                                     const AutodiffOptions& options = {}) {
+  const Stopwatch watch;
   CheckResult r;
-  r.check = "jacobian_autodiff";
+  r.kind = CheckKind::jacobian_autodiff;
   r.subject = subject;
   r.reference = 0;
   r.tolerance = options.tolerance;
@@ -208,14 +210,16 @@ CheckResult check_jacobian_autodiff(const std::string& subject, const Domain& do
     }
   }
   r.estimate = r.bound = worst;
-  r.figures = {{"ill-conditioned points", static_cast<double>(ill_conditioned)}};
+  r.figures = {{Figure::ill_conditioned, static_cast<double>(ill_conditioned)}};
   if (r.samples == 0) {
     r.verdict = Verdict::inconclusive;
     r.reason = "the map gave no point";
   } else if (r.verdict == Verdict::pass && 10 * ill_conditioned > r.samples) {
     r.verdict = Verdict::inconclusive;
     r.reason = "rounding of the point changes the density by more than the tolerance too often";
+    r.advice = "raise the tolerance, or keep `nearest` farther from the ends of the square";
   }
+  r.seconds = watch.seconds();
   return r;
 }
 

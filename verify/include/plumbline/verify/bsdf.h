@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <plumbline/verify/detail/erase_bsdf.h>
-#include <plumbline/verify/detail/result.h>
+#include <plumbline/verify/detail/report.h>
 #include <plumbline/verify/pair.h>
 
 namespace plumbline::verify {
@@ -48,8 +48,7 @@ struct BsdfOptions {
 ///
 /// Results are named name/face angle/check. A BSDF that gives no sample from any direction stays
 /// inconclusive: most likely a convention is not stated.
-std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& bsdf,
-                                    const BsdfOptions& options = {});
+Report check_bsdf(const std::string& name, const ErasedBsdf& bsdf, const BsdfOptions& options = {});
 
 /// The same on an object of any type that has `sample`, `pdf` and `eval`; see erase_bsdf.h for what
 /// is understood.
@@ -58,8 +57,7 @@ std::vector<CheckResult> check_bsdf(const std::string& name, const ErasedBsdf& b
 /// overloaded
 /// @tparam Numbers    type of the random numbers that `sample` takes, where it cannot be found out
 template <class Direction = void, class Numbers = void, class B>
-std::vector<CheckResult> check_bsdf(const std::string& name, const B& bsdf,
-                                    const BsdfOptions& options = {}) {
+Report check_bsdf(const std::string& name, const B& bsdf, const BsdfOptions& options = {}) {
   return check_bsdf(name, erase_bsdf<Direction, Numbers>(bsdf, options.conventions), options);
 }
 

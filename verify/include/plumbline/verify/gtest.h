@@ -2,16 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
 #include <string>
 #include <vector>
 
-#include <plumbline/verify/detail/result.h>
+#include <plumbline/verify/detail/report.h>
 
-/// Verdicts as GoogleTest assertions. Header-only; needs GoogleTest and nothing else.
-namespace plumbline::verify {
-
-namespace detail {
+/// Reports as GoogleTest assertions. Header-only; needs GoogleTest and nothing else.
+namespace plumbline::verify::detail {
 
 /// The command that runs this test again; its seeds are in the test's code.
 inline std::string replay_of_running_test() {
@@ -22,42 +19,33 @@ inline std::string replay_of_running_test() {
   return command + "--gtest_filter=" + test->test_suite_name() + "." + test->name();
 }
 
-inline testing::AssertionResult as_expected(const char*, CheckResult result) {
-  if (result.as_expected()) return testing::AssertionSuccess();
-  if (result.replay.empty()) result.replay = replay_of_running_test();
-  return testing::AssertionFailure() << describe(result);
+inline testing::AssertionResult with_summary(bool holds, const Report& report) {
+  if (holds) return testing::AssertionSuccess();
+  Report repeatable = report;
+  if (repeatable.replay.empty()) repeatable.replay = replay_of_running_test();
+  return testing::AssertionFailure() << repeatable.summary();
 }
 
-/// One message: what is likely wrong, the first failing result of each kind in full (they mostly
-/// share one cause), the names of the others, how to run it again.
-inline testing::AssertionResult as_expected(const char*, const std::vector<CheckResult>& results) {
-  std::size_t failed = 0;
-  std::set<std::string> kinds;
-  std::string cause, in_full, others;
-  for (CheckResult r : results) {
-    if (r.as_expected()) continue;
-    ++failed;
-    if (cause.empty()) cause = r.diagnosis;
-    if (kinds.insert(r.check).second) {
-      if (r.diagnosis == cause) r.diagnosis.clear();
-      in_full += describe(r);
-    } else {
-      others += "  " + r.subject + "\n";
-    }
-  }
-  if (failed == 0) return testing::AssertionSuccess();
-  testing::AssertionResult failure = testing::AssertionFailure();
-  failure << failed << " of " << results.size() << " checks did not give what they should\n";
-  if (!cause.empty()) failure << "likely cause: " << cause << "\n";
-  failure << in_full;
-  if (!others.empty()) failure << "in the same way:\n" << others;
-  return failure << "replay: " << replay_of_running_test();
+inline testing::AssertionResult passes(const char*, const Report& report) {
+  return with_summary(report.ok(), report);
 }
 
-}  // namespace detail
+inline testing::AssertionResult gives_verdicts(const char*, const Report& report) {
+  return with_summary(report.as_expected(), report);
+}
 
-}  // namespace plumbline::verify
+}  // namespace plumbline::verify::detail
 
-/// Holds a CheckResult, or all of a std::vector of them, against what they declare to expect.
-#define EXPECT_PASS(result) EXPECT_PRED_FORMAT1(::plumbline::verify::detail::as_expected, (result))
-#define ASSERT_PASS(result) ASSERT_PRED_FORMAT1(::plumbline::verify::detail::as_expected, (result))
+/// Everything passes, but for what a check skips and says so: `Report::ok`. Takes one CheckResult
+/// too.
+#define PLUMBLINE_EXPECT_PASS(report) \
+  EXPECT_PRED_FORMAT1(::plumbline::verify::detail::passes, (report))
+#define PLUMBLINE_ASSERT_PASS(report) \
+  ASSERT_PRED_FORMAT1(::plumbline::verify::detail::passes, (report))
+
+/// Each result has the verdict that it declares in `expected`, for code that must fail: negative
+/// controls.
+#define PLUMBLINE_EXPECT_VERDICTS(report) \
+  EXPECT_PRED_FORMAT1(::plumbline::verify::detail::gives_verdicts, (report))
+#define PLUMBLINE_ASSERT_VERDICTS(report) \
+  ASSERT_PRED_FORMAT1(::plumbline::verify::detail::gives_verdicts, (report))

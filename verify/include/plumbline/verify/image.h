@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/verify/detail/result.h>
+#include <plumbline/verify/detail/report.h>
+#include <plumbline/verify/detail/settings.h>
 #include <plumbline/verify/mean.h>
 
 namespace plumbline::verify {
@@ -18,7 +19,7 @@ struct Image {
 };
 
 /// What an image check is asked.
-struct ImageOptions {
+struct ImageOptions : CheckSettings {
   std::string subject;
   double tolerance = 0.01;           ///< bias of the global mean, relative to the reference's mean
   double rounding_allowance = 1e-5;  ///< relative, per pixel: what float rounding may do
@@ -26,8 +27,6 @@ struct ImageOptions {
   int look = 0;                      ///< which of `looks` looks at a growing image this is
   int looks = 1;                     ///< both levels are split evenly over them
   Verdict expected = Verdict::pass;
-  std::uint64_t seed = 0;
-  ErrorBudget budget;
 };
 
 /// Outcome of an image check, with what the page shows.

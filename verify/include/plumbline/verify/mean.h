@@ -3,17 +3,20 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include <plumbline/verify/detail/budget.h>
 #include <plumbline/verify/detail/moments.h>
-#include <plumbline/verify/detail/result.h>
+#include <plumbline/verify/detail/report.h>
+#include <plumbline/verify/detail/settings.h>
+#include <plumbline/verify/detail/stopwatch.h>
 
 namespace plumbline::verify {
 
 /// What a check of a mean looks at: an estimate with what is known about its error. Made from
 /// moments of independent samples by `evidence()`, or by pooling the pixels of an image
-/// (image_check.h).
+/// (image.h).
 struct Evidence {
   std::uint64_t samples = 0;
   double estimate = 0;
@@ -21,8 +24,8 @@ struct Evidence {
   double skewness = 0;  ///< of the estimate, not of one sample: γ/√n for independent samples
   double largest_share = 0;  ///< share of the squared deviations carried by a single sample
   double tail_index = std::numeric_limits<double>::infinity();  ///< as Moments::tail_index
-  double smallest = kNotApplicable;                             ///< sample, where known
-  double largest = kNotApplicable;                              ///< sample, where known
+  double smallest = std::numeric_limits<double>::quiet_NaN();   ///< sample; NaN: not known
+  double largest = std::numeric_limits<double>::quiet_NaN();    ///< sample; NaN: not known
   std::uint64_t rejected = 0;
   std::uint64_t non_finite = 0;
 };
@@ -34,7 +37,7 @@ Evidence evidence(const Moments& moments);
 Evidence difference(const Evidence& a, const Evidence& b);
 
 /// What a mean check is asked.
-struct MeanOptions {
+struct MeanOptions : CheckSettings {
   std::string subject;
   double reference = 0;  ///< the known answer
 
@@ -50,13 +53,11 @@ struct MeanOptions {
   /// Variance of one sample, where a closed form gives it; else it is estimated from the samples.
   /// Infinity says that it is known to be infinite: then nothing passes or fails but the bound
   /// stands.
-  double exact_variance = kNotApplicable;
+  std::optional<double> exact_variance;
 
   std::uint64_t n0 = 1250;              ///< samples at the first look: 20,000 is the fifth
   std::uint64_t max_samples = 1 << 26;  ///< the cap, where the check stays undecided
   Verdict expected = Verdict::pass;
-  std::uint64_t seed = 0;  ///< only passed on to the result: the sampler draws the numbers
-  ErrorBudget budget;
 };
 
 /// Shows |bias| ≤ tolerance, or bias ≠ 0, looking at growing sample counts: equivalence test and
@@ -112,6 +113,7 @@ class MeanCheck {
 
   MeanOptions options_;
   LookPlan plan_;
+  Stopwatch watch_;
   Moments moments_;
   std::size_t next_look_ = 0;
   bool done_ = false;

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/verify/detail/budget.h>
 #include <plumbline/verify/detail/domain.h>
 #include <plumbline/verify/detail/random.h>
-#include <plumbline/verify/detail/result.h>
+#include <plumbline/verify/detail/report.h>
+#include <plumbline/verify/detail/settings.h>
 #include <plumbline/verify/detail/vector_access.h>
 
 namespace plumbline::verify {
@@ -30,6 +30,9 @@ struct Channels {
   double operator[](std::size_t i) const { return value[i]; }
   friend bool operator==(const Channels&, const Channels&) = default;
 };
+
+/// A density that a record does not state.
+inline constexpr double kNotApplicable = std::numeric_limits<double>::quiet_NaN();
 
 /// What a sampler returned.
 struct SampleRecord {
@@ -134,7 +137,7 @@ std::optional<SampleRecord> record_of_point(const std::optional<P>& point) {
 ///                 optional point
 /// @param pdf      of a point
 template <class Point, class Sample, class Pdf>
-SamplingPair make_pair(std::string name, Domain domain, Sample sample, Pdf pdf) {
+SamplingPair sampling_pair(std::string name, Domain domain, Sample sample, Pdf pdf) {
   using T = PointScalar<Point>;
   SamplingPair pair;
   pair.name = std::move(name);
@@ -157,10 +160,7 @@ SamplingPair make_pair(std::string name, Domain domain, Sample sample, Pdf pdf) 
 }
 
 /// How hard a sampling pair is looked at.
-struct ContractOptions {
-  std::uint64_t seed = 1;
-  ErrorBudget budget;
-
+struct ContractOptions : CheckSettings {
   // Deterministic checks.
   int points = 10'000;          ///< of the pointwise checks
   int jacobian_points = 2'000;  ///< at most
@@ -190,7 +190,7 @@ struct ContractOptions {
 ///
 /// On failure the results carry a diagnosis: the observed/expected ratio is fitted against the
 /// usual suspects and the best is named with how well it fits, or none where none fits.
-std::vector<CheckResult> check_pair(const SamplingPair& pair, const ContractOptions& options = {});
+Report check_pair(const SamplingPair& pair, const ContractOptions& options = {});
 
 /// pdf · |∂x/∂u| = 1 by extrapolated differences, lobe by lobe. Points at a fold or seam of the
 /// map, where differences do not converge, are counted and left out. A pass bounds the relative
@@ -203,8 +203,7 @@ CheckResult check_jacobian(const SamplingPair& pair, const ContractOptions& opti
 /// The density that the record states equals `pdf`; weight · pdf equals `value`; the density is
 /// finite, not negative, and positive wherever the value is; points lie in the domain, also at the
 /// corners of the unit square. What rounding of the point itself may change is allowed for.
-std::vector<CheckResult> check_pointwise(const SamplingPair& pair,
-                                         const ContractOptions& options = {});
+Report check_pointwise(const SamplingPair& pair, const ContractOptions& options = {});
 
 /// ∫pdf + atoms + rejected share = 1, by adaptive cubature seeded from samples, with its error.
 CheckResult check_integral(const SamplingPair& pair, const ContractOptions& options = {});
@@ -221,8 +220,7 @@ CheckResult check_integral(const SamplingPair& pair, const ContractOptions& opti
 /// the masses add up; else `inconclusive`, also where the cubature cannot certify its error.
 CheckResult check_chi_square(const SamplingPair& pair, const ContractOptions& options = {});
 
-/// Chi-square test of a sampler of directions alone, for a user's own vector type. See
-/// `check_chi_square` of a pair in contract.h.
+/// The same of a sampler of directions alone, for a user's own vector type.
 ///
 /// @param density  pdf_w [1/sr] of a unit direction
 /// @param sampler  two numbers uniform in [0, 1), in the scalar of the direction's type, to an
@@ -231,8 +229,8 @@ CheckResult check_chi_square(const SamplingPair& pair, const ContractOptions& op
 template <class Direction, class Density, class Sampler>
 CheckResult check_chi_square(std::string subject, Density density, Sampler sampler,
                              const ContractOptions& options = {}) {
-  return check_chi_square(make_pair<Direction>(std::move(subject), Domain::sphere(),
-                                               std::move(sampler), std::move(density)),
+  return check_chi_square(sampling_pair<Direction>(std::move(subject), Domain::sphere(),
+                                                   std::move(sampler), std::move(density)),
                           options);
 }
 

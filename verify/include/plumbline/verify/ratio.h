@@ -1,23 +1,22 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
-#include <plumbline/verify/detail/budget.h>
 #include <plumbline/verify/detail/moments.h>
-#include <plumbline/verify/detail/result.h>
+#include <plumbline/verify/detail/report.h>
+#include <plumbline/verify/detail/settings.h>
 
 namespace plumbline::verify {
 
 /// A claim about the ratio variance(a)/variance(b).
-struct VarianceRatioOptions {
+struct VarianceRatioOptions : CheckSettings {
   std::string subject;
-  double at_least = kNotApplicable;  ///< claim: ratio ≥ this
-  double at_most = kNotApplicable;   ///< claim: ratio ≤ this; both may be given
+  std::optional<double> at_least;  ///< claim: ratio ≥ this
+  std::optional<double> at_most;   ///< claim: ratio ≤ this; both may be given
   Verdict expected = Verdict::pass;
-  std::uint64_t seed = 0;
-  ErrorBudget budget;
 };
 
 /// Whether the ratio of two variances keeps a claim, with a 99.9 % interval.
@@ -45,13 +44,11 @@ CheckResult check_variance_ratio(const VarianceRatioOptions& options, std::span<
                                  std::span<const double> b);
 
 /// A claim about a probability.
-struct ProportionOptions {
+struct ProportionOptions : CheckSettings {
   std::string subject;
   double at_least = 0;  ///< claim: probability ≥ this
   double at_most = 1;   ///< claim: probability ≤ this
   Verdict expected = Verdict::pass;
-  std::uint64_t seed = 0;
-  ErrorBudget budget;
 };
 
 /// Whether the probability of an event keeps a claim, from how often it happened: a hit rate, the

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include <plumbline/verify/detail/cause.h>
 
 namespace plumbline::verify {
 
@@ -16,38 +17,155 @@ enum class Verdict { pass, fail, inconclusive };
 /// "pass", "fail" or "inconclusive".
 std::string_view to_string(Verdict verdict);
 
-inline constexpr double kNotApplicable = std::numeric_limits<double>::quiet_NaN();
+/// What a check looks at.
+enum class CheckKind {
+  other,  ///< a check of a user's own
+
+  // Numbers from a renderer.
+  mean,
+  agreement,
+  variance_ratio,
+  proportion,
+  image,
+
+  // A sampling pair.
+  record_pdf,
+  weight,
+  support,
+  finite,
+  jacobian,
+  jacobian_autodiff,
+  integral,
+  chi_square,
+
+  // A BSDF.
+  reciprocity,
+  energy,
+  atoms,
+  samples,  ///< whether it gives any
+
+  // Of a whole tree: what its checks claim, and what its estimators should show.
+  calibration,
+  stability,
+  variance
+};
+
+/// The word in subjects and records: "variance_ratio".
+std::string_view to_string(CheckKind kind);
+
+/// The kind that a word stands for; nullopt if none.
+std::optional<CheckKind> check_kind(std::string_view word);
+
+/// What the further numbers of a result are.
+enum class Figure {
+  other,  ///< has a name of its own
+
+  // Means and agreement.
+  standard_error,
+  skewness,       ///< of the estimate
+  largest_share,  ///< of the squared deviations, carried by one sample
+  rejected,       ///< samples
+  non_finite,     ///< samples
+  mean_of_a,
+  mean_of_b,
+
+  // Ratios of variances, proportions.
+  variance_of_a,
+  variance_of_b,
+  largest_batch_of_a,  ///< its share of the variance
+  largest_batch_of_b,
+  hits,
+  at_least,
+  at_most,
+
+  // Images.
+  pixels_judged,
+  histogram_p_value,  ///< of the hypothesis that the p-values are uniform
+
+  // Sampling pairs and BSDFs.
+  points_tried,
+  folds,  ///< points that differences do not converge at: folds, seams, rounding
+  failing,
+  ill_conditioned,  ///< points
+  integral_of_pdf,
+  integral_error,
+  atoms,  ///< of a chi-square how many, of an integral their probability
+  rejected_share,
+  rejected_error,    ///< of the rejected share
+  unresolved_share,  ///< of the mass, in bins whose mass is not known well enough
+  unseen_spike,      ///< share of the domain that a spike may take unseen, once in 1,000 times
+  rounding,  ///< what it may do to the integral
+  pairs_with_value,
+  explained_by_rounding,
+  evaluations,
+  chi_square,
+  degrees_of_freedom,
+  bins,
+  albedo_of_atoms
+};
+
+/// "integral of the pdf"
+std::string_view to_string(Figure figure);
+
+/// One further number of a result.
+struct FigureValue {
+  Figure figure = Figure::other;
+  double value = 0;
+  std::string own_name;  ///< of Figure::other
+
+  FigureValue(Figure f, double v) : figure(f), value(v) {}
+
+  /// By name, for checks of a user's own; a name that `to_string` gives is that figure.
+  FigureValue(std::string_view name, double v);
+
+  std::string_view name() const;
+
+  friend bool operator==(const FigureValue&, const FigureValue&) = default;
+};
+
+struct Interval {
+  double low = 0, high = 0;
+
+  friend bool operator==(const Interval&, const Interval&) = default;
+};
 
 /// The outcome of one check. Plain data: what a person needs to act on it, what the page shows, and
-/// what replays it. Fields that a kind of check has no use for stay NaN (`kNotApplicable`) or
-/// empty.
+/// what replays it. What a kind of check has no use for stays empty.
 struct CheckResult {
-  std::string check;    ///< kind of check: "mean", "chi_square", "variance_ratio", "integral", …
+  CheckKind kind = CheckKind::other;
   std::string subject;  ///< what was checked, coarse to fine: "furnace_sphere/mis/power"
   Verdict verdict = Verdict::inconclusive;
   Verdict expected = Verdict::pass;  ///< what the check declares that it must give
 
-  double estimate = kNotApplicable;       ///< in units of the quantity
-  double reference = kNotApplicable;      ///< the known answer, same units
-  double tolerance = kNotApplicable;      ///< largest |bias| that a pass allows, same units
-  double bound = kNotApplicable;          ///< proven: |bias| <= bound with 99.9 % confidence
-  double detectable = kNotApplicable;     ///< smallest effect that fails with 99 % probability
-  double p_value = kNotApplicable;        ///< of the null hypothesis "no difference"
-  double interval_low = kNotApplicable;   ///< 99.9 % confidence interval of `estimate`
-  double interval_high = kNotApplicable;  ///< 99.9 % confidence interval of `estimate`
+  std::optional<double> estimate;    ///< in units of the quantity
+  std::optional<double> reference;   ///< the known answer, same units
+  std::optional<double> tolerance;   ///< largest |bias| that a pass allows, same units
+  std::optional<double> bound;       ///< proven: |bias| <= bound with 99.9 % confidence
+  std::optional<double> detectable;  ///< smallest effect that fails with 99 % probability
+  std::optional<double> p_value;     ///< of the null hypothesis "no difference"
+  std::optional<Interval> interval;  ///< 99.9 % confidence interval of `estimate`
   std::uint64_t samples = 0;
-  double seconds = 0;
+  double seconds = 0;  ///< that the check took, the code under test included where it calls it
 
   std::string leaned_on;  ///< assumption behind the verdict: "exact variance", "skewness guard", …
   std::string reason;     ///< why it failed or stayed inconclusive, one sentence for a person
+  std::string advice;     ///< what to do where it stayed inconclusive, one sentence
   std::string diagnosis;  ///< what is likely wrong, and how well that fits; empty if nothing fits
+  CauseKind cause = CauseKind::none;  ///< the diagnosis in a word
   std::uint64_t seed = 0;
   std::string replay;  ///< one command that repeats the check; filled in by the suite that ran it
 
-  /// Further numbers worth keeping (degrees of freedom, bins, a variance), by name.
-  std::vector<std::pair<std::string, double>> figures;
+  /// Further numbers worth keeping (degrees of freedom, bins, a variance), in the order in which
+  /// they are shown.
+  std::vector<FigureValue> figures;
 
-  /// The gate's question.
+  /// The first value of a figure; nullopt if the result has none.
+  std::optional<double> figure(Figure figure) const;
+
+  /// A pass, and nothing else.
+  bool ok() const { return verdict == Verdict::pass; }
+
+  /// The question of a suite with negative controls.
   bool as_expected() const { return verdict == expected; }
 };
 
