@@ -87,7 +87,7 @@ void add_on_sides(std::vector<Hypothesis>& list, bool bsdf, const Blame& blame, 
 }
 
 void add_by_view(std::vector<Hypothesis>& list, const Blame& blame,
-                 const Observations& observations, double error) {
+                 const Observations& observations, bool both_sides, double error) {
   Hypothesis again;
   again.kind = CauseKind::not_rejected;
   again.starts = {{0.0}};
@@ -104,6 +104,8 @@ void add_by_view(std::vector<Hypothesis>& list, const Blame& blame,
            " does not know: it lacks 1/(accepted share), here " + number(std::exp(n[0]));
   };
   list.push_back(std::move(again));
+  // A constant for each view explains whatever depends on wo alone, unless both sides show.
+  if (!both_sides) return;
 
   // Reflection and transmission chosen with probabilities P and 1 − P that the density lacks.
   Hypothesis chosen;
@@ -154,7 +156,7 @@ std::vector<Hypothesis> constant_hypotheses(const ReportEvidence& evidence, cons
     for (const CountedBin& b : v.bins) (beyond(b.nodes[0]) ? below : above) = true;
   }
   if (above && below) add_on_sides(list, bsdf, blame, error);
-  if (bsdf) add_by_view(list, blame, observations, error);
+  if (bsdf) add_by_view(list, blame, observations, above && below, error);
   return list;
 }
 
