@@ -62,8 +62,17 @@ BinPrediction predict(const CountedBin& bin, const Prediction& prediction,
   const double spread = std::sqrt(std::max(0.0, squares - mean * mean));
   const double of_nodes =
       spread < 1e-12 * std::abs(mean) ? 0 : spread / std::sqrt(double(bin.nodes.size()));
-  return {bin.expected * mean, std::hypot(bin.expected * of_nodes, bin.expected_error * mean),
-          of_nodes > 0};
+  BinPrediction p{bin.expected * mean,
+                  std::hypot(bin.expected * of_nodes, bin.expected_error * mean), of_nodes > 0};
+  if (p.varies && stride == 1 && !bin.measures.empty()) {
+    double direct = 0;
+    for (std::size_t i = 0; i < bin.nodes.size(); ++i) {
+      direct += bin.samples * bin.measures[i] * prediction(bin.nodes[i], parameters);
+    }
+    // Where the two ways to add up differ, the nodes are too few for either.
+    if (std::isfinite(direct)) p.error = std::hypot(p.error, direct - p.expected);
+  }
+  return p;
 }
 
 /// Standard normal under the prediction. @source Freeman, Tukey 1950: the roots of Poisson counts
@@ -114,6 +123,8 @@ void add_bins(const ViewEvidence& view, ViewObservations& out) {
     bin.expected = seen.expected;
     bin.expected_error = seen.expected_error;
     bin.shares = seen.shares;
+    bin.measures = seen.measures;
+    bin.samples = view.samples;
     for (const Vec3& x : seen.nodes) {
       bin.nodes.push_back({&view, view.wo.value_or(Vec3{}), x, pdf_at(view, x)});
       if (bin.nodes.back().base > 0) continue;

@@ -33,10 +33,11 @@ std::vector<BinSeen> bins_seen(const BinnedPair& binned) {
       if (fine >= binned.expected().value.size()) continue;
       // Errors of cells are bounds rather than standard errors.
       error2 += std::pow(n * binned.expected().error[fine] / 3, 2);
-      for (const auto& [x, share] : binned.nodes_of(fine)) {
-        bins[i].nodes.push_back(x);
-        bins[i].shares.push_back(share);
-        total += share;
+      for (const BinnedPair::Node& node : binned.nodes_of(fine)) {
+        bins[i].nodes.push_back(node.x);
+        bins[i].shares.push_back(node.mass);
+        bins[i].measures.push_back(node.measure);
+        total += node.mass;
       }
     }
     bins[i].expected_error = std::sqrt(error2);
