@@ -296,11 +296,15 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
   fit.worst = std::max(fit.worst, pulls.worst() / allowed);
   if (o.judge_mass) {
     const MassSeen& mass = *o.view->mass;
+    // Numbers are fitted to a part of the counts; nodes are no cubature.
+    constexpr double kFittedBins = 60;
+    const double part =
+        std::min(0.5, kFittedBins / std::max(1.0, static_cast<double>(o.bins.size())));
+    const double of_fit = numbers.empty() && !varies ? 0 : 4 / std::sqrt(n * part);
     const double missing = total + mass.atoms + mass.rejected + o.view->stray_share - 1;
     const double error = mass.integral_error * total / std::max(mass.integral, 1e-300) +
                          mass.rejected_error + 4 * std::sqrt(variance) +
-                         4 * std::sqrt(o.view->stray_share / n) + kMassTolerance +
-                         (numbers.empty() && !varies ? 0 : 4 / std::sqrt(n));
+                         4 * std::sqrt(o.view->stray_share / n) + kMassTolerance + of_fit;
     if (!(std::abs(missing) <= error)) return fit;
   }
   fit.admissible = fit.tested > 0;
@@ -318,7 +322,7 @@ std::vector<double> Observations::residuals(const Prediction& prediction,
   }
   const std::size_t all = flatten ? kFewFitted : kMostFitted;
   const std::size_t each =
-      view >= 0 ? all / 4
+      view >= 0 ? all / 2
                 : std::max<std::size_t>(flatten ? 6 : 16, all / std::max(views, std::size_t{1}));
   for (std::size_t v = 0; v < views_.size(); ++v) {
     if (view >= 0 && v != static_cast<std::size_t>(view)) continue;
