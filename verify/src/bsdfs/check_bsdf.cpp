@@ -103,7 +103,8 @@ Report check_bsdf(const std::string& name, const ErasedBsdf& bsdf, const BsdfOpt
     evidence.reciprocity = std::move(outcome.pairs);
     all.results.push_back(std::move(outcome.result));
   }
-  if (black) all.results.push_back(nothing_sampled(name, options.contract, kBlackEverywhere, kWhyBlack));
+  if (black)
+    all.results.push_back(nothing_sampled(name, options.contract, kBlackEverywhere, kWhyBlack));
   const bool failed = std::any_of(all.begin(), all.end(),
                                   [](const CheckResult& r) { return r.verdict == Verdict::fail; });
   if (failed) name_cause(diagnose(evidence), all);

@@ -62,7 +62,8 @@ class Reciprocity {
     result_.tolerance = stated_tolerance(bsdf_.epsilon);
     result_.estimate = result_.bound = worst_;
     result_.leaned_on = "points tested";
-    result_.figures = {{Figure::pairs_with_value, judged_}, {Figure::explained_by_rounding, explained_}};
+    result_.figures = {{Figure::pairs_with_value, judged_},
+                       {Figure::explained_by_rounding, explained_}};
     if (failed_ > 0) {
       result_.verdict = Verdict::fail;
       result_.reason += " (" + number(failed_) + " of " + number(judged_) + " pairs fail)";
@@ -146,7 +147,8 @@ class Reciprocity {
     constexpr std::size_t kEnough = 300;  // each costs some 400 evaluations of f
     const double ratio = p.there[0] / p.back[0];
     if (!(ratio > 0) || !std::isfinite(ratio) || seen_.size() >= kEnough) return;
-    const double error = stated_tolerance(bsdf_.epsilon) + spread(p, 0) / std::min(p.there[0], p.back[0]);
+    const double error =
+        stated_tolerance(bsdf_.epsilon) + spread(p, 0) / std::min(p.there[0], p.back[0]);
     seen_.push_back({p.wo, p.wi, ratio, std::isfinite(error) ? error : 1.0});
   }
 

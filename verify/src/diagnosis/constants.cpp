@@ -37,14 +37,51 @@ bool draws_again(const Observations& observations, const Numbers& numbers, doubl
   return lacks;
 }
 
-void add_everywhere(std::vector<Hypothesis>& list, const Blame& blame, double error) {
+/// The constant that the whole of one view asks for, by its masses or counts or exact ratios.
+double constant_of(const Observations& observations) {
+  const ViewObservations& v = observations.views()[observations.order().front()];
+  if (!v.exact.empty()) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < v.exact.size(); i += 2) ratios.push_back(v.exact[i].ratio);
+    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+    std::nth_element(ratios.begin(), middle, ratios.end());
+    return *middle;
+  }
+  if (v.view->mass && v.view->mass->integral > 0) {
+    const MassSeen& m = *v.view->mass;
+    return (1 - m.atoms - m.rejected - v.view->stray_share) / m.integral;
+  }
+  double observed = 0, expected = 0;
+  for (const CountedBin& b : v.bins) {
+    observed += b.observed;
+    expected += b.expected;
+  }
+  return observed / expected;
+}
+
+void add_everywhere(std::vector<Hypothesis>& list, const Blame& blame,
+                    const Observations& observations, double error) {
+  const double nearest = nearest_usual_constant(constant_of(observations));
+  const std::string name = usual_constant(nearest, error);
+  if (!name.empty()) {
+    Hypothesis usual;
+    usual.kind = CauseKind::constant;
+    usual.prediction = [nearest](const Place& p, std::span<const double>) {
+      return p.base * nearest;
+    };
+    usual.words = [=](std::span<const double>) {
+      return "constant factor " + name + " missing from " + blame.function + ": " +
+             blame.numerator + " is " + name + " times as large everywhere";
+    };
+    list.push_back(std::move(usual));
+  }
   Hypothesis h;
   h.kind = CauseKind::constant;
   h.starts = {{0.0}};
   h.prediction = [](const Place& p, std::span<const double> n) { return p.base * std::exp(n[0]); };
   h.charge = [error](const Numbers& n) -> std::optional<double> {
     if (std::abs(n.front()[0]) <= error / 4) return std::nullopt;
-    return usual_constant(std::exp(n.front()[0]), error).empty() ? -kPerNumber / 2 : -kPerNumber;
+    return -kPerNumber / 2;
   };
   h.words = [=](std::span<const double> n) {
     const std::string c = constant_name(std::exp(n[0]), error);
@@ -87,7 +124,7 @@ void add_on_sides(std::vector<Hypothesis>& list, bool bsdf, const Blame& blame, 
 }
 
 void add_by_view(std::vector<Hypothesis>& list, const Blame& blame,
-                 const Observations& observations, double error) {
+                 const Observations& observations, bool both_sides, double error) {
   Hypothesis again;
   again.kind = CauseKind::not_rejected;
   again.starts = {{0.0}};
@@ -104,6 +141,8 @@ void add_by_view(std::vector<Hypothesis>& list, const Blame& blame,
            " does not know: it lacks 1/(accepted share), here " + number(std::exp(n[0]));
   };
   list.push_back(std::move(again));
+  // A constant for each view explains whatever depends on wo alone, unless both sides show.
+  if (!both_sides) return;
 
   // Reflection and transmission chosen with probabilities P and 1 − P that the density lacks.
   Hypothesis chosen;
@@ -146,7 +185,7 @@ std::vector<Hypothesis> constant_hypotheses(const ReportEvidence& evidence, cons
   const double error = error_of_constant(observations);
   const ViewEvidence& view = evidence.views.front();
   const bool bsdf = view.bsdf != nullptr && has_wo(view);
-  add_everywhere(list, blame, error);
+  add_everywhere(list, blame, observations, error);
   if (!view.pair->domain.directions()) return list;
   bool above = false, below = false;
   for (const ViewObservations& v : observations.views()) {
@@ -154,7 +193,7 @@ std::vector<Hypothesis> constant_hypotheses(const ReportEvidence& evidence, cons
     for (const CountedBin& b : v.bins) (beyond(b.nodes[0]) ? below : above) = true;
   }
   if (above && below) add_on_sides(list, bsdf, blame, error);
-  if (bsdf) add_by_view(list, blame, observations, error);
+  if (bsdf) add_by_view(list, blame, observations, above && below, error);
   return list;
 }
 

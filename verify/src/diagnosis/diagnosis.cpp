@@ -203,11 +203,9 @@ class Diagnosis {
 
   /// What no function of the point explains: symmetries, and where samples are missing.
   std::optional<Cause> of_shape(const Observations& density) const {
-    double empty = 0, expected = 0, excess = 0;
+    double excess = 0;
     for (const ViewObservations& v : density.views()) {
       for (const CountedBin& b : v.bins) {
-        expected += b.expected;
-        if (b.observed < 0.02 * b.expected && b.expected > 20) empty += b.expected;
         excess = std::max(excess, (b.observed - b.expected) / std::sqrt(b.expected + 1));
       }
     }
@@ -220,9 +218,11 @@ class Diagnosis {
                    {},
                    CauseKind::none};
     }
-    if (empty > 0.02 * expected && excess > kCertain) {
+    double never = 0;
+    for (const ViewEvidence& v : evidence_.views) never = std::max(never, share_never_sampled(v));
+    if (never > 0.02 && excess > kCertain) {
       const bool chosen = map_jumps(evidence_.views.front());
-      const std::string some = number(std::round(1e3 * empty / expected) / 10) + " % of pdf()";
+      const std::string some = number(std::round(1e3 * never) / 10) + " % of pdf()";
       if (chosen) {
         return Cause{CauseKind::numbers_reused,
                      "no sample falls where " + some +

@@ -41,6 +41,9 @@ Dependence dependence_of(const ReportEvidence& evidence, bool of_weight);
 /// as well; but samples are not.
 bool samples_break_a_symmetry(const ReportEvidence& evidence);
 
+/// Share of pdf() in places where no sample falls though many are expected: whole cells of a grid.
+double share_never_sampled(const ViewEvidence& view);
+
 /// The map from numbers to samples jumps: something is chosen by one of the numbers.
 bool map_jumps(const ViewEvidence& view);
 

@@ -38,6 +38,10 @@ struct BinSeen {
   double expected_error = 0;   ///< standard error of `expected`
   std::vector<Vec3> nodes;     ///< about evenly spread over the bin
   std::vector<double> shares;  ///< of the bin's expected mass, sum to 1
+
+  /// Measure of the domain that each node stands for, sum to the bin's; may be empty. A hypothesis
+  /// under which the density is smooth where the pdf is not is judged by both.
+  std::vector<double> measures;
 };
 
 /// ∫pdf + atoms + rejected = 1, and how well each is known (at the level of a fail).

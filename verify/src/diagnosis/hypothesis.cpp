@@ -61,11 +61,15 @@ std::vector<Explanation> explain(const Observations& observations,
 double error_of_constant(const Observations& observations) {
   constexpr double kPulls = 4;
   std::vector<double> errors;
-  double counts = 0;
+  double counts = 0, bins = 0;
   for (const ViewObservations& v : observations.views()) {
     for (const ExactPoint& p : v.exact) errors.push_back(p.error);
     for (const CountedBin& b : v.bins) counts += b.observed;
+    bins += static_cast<double>(v.bins.size());
   }
+  // A fit looks at so many of the bins.
+  constexpr double kFitted = 240;
+  if (bins > kFitted) counts *= kFitted / bins;
   double error = counts > 0 ? kPulls / std::sqrt(counts) : 0.5;
   if (errors.size() >= 8) {
     const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
@@ -75,36 +79,53 @@ double error_of_constant(const Observations& observations) {
   return error;
 }
 
+namespace {
+
+struct Usual {
+  double value;
+  const char* name;
+};
+constexpr double kPi = std::numbers::pi;
+constexpr Usual kUsual[] = {{2, "2"},
+                            {3, "3"},
+                            {4, "4"},
+                            {5, "5"},
+                            {6, "6"},
+                            {8, "8"},
+                            {9, "9"},
+                            {10, "10"},
+                            {12, "12"},
+                            {16, "16"},
+                            {kPi, "π"},
+                            {2 * kPi, "2π"},
+                            {4 * kPi, "4π"},
+                            {8 * kPi, "8π"},
+                            {kPi / 2, "π/2"},
+                            {kPi / 3, "π/3"},
+                            {kPi / 4, "π/4"},
+                            {kPi * kPi, "π²"},
+                            {2 * kPi * kPi, "2π²"},
+                            {1.5, "3/2"},
+                            {4.0 / 3, "4/3"},
+                            {kPi / 6, "π/6"},
+                            {4 * kPi / 3, "4π/3"},
+                            {std::numbers::sqrt2, "√2"}};
+
+}  // namespace
+
+double nearest_usual_constant(double value) {
+  double best = 1, distance = std::abs(std::log(value));
+  for (const Usual& u : kUsual) {
+    for (const double c : {u.value, 1 / u.value}) {
+      if (std::abs(std::log(value / c)) >= distance) continue;
+      distance = std::abs(std::log(value / c));
+      best = c;
+    }
+  }
+  return best;
+}
+
 std::string usual_constant(double value, double error) {
-  constexpr double kPi = std::numbers::pi;
-  struct Usual {
-    double value;
-    const char* name;
-  };
-  static constexpr Usual kUsual[] = {{2, "2"},
-                                     {3, "3"},
-                                     {4, "4"},
-                                     {5, "5"},
-                                     {6, "6"},
-                                     {8, "8"},
-                                     {9, "9"},
-                                     {10, "10"},
-                                     {12, "12"},
-                                     {16, "16"},
-                                     {kPi, "π"},
-                                     {2 * kPi, "2π"},
-                                     {4 * kPi, "4π"},
-                                     {8 * kPi, "8π"},
-                                     {kPi / 2, "π/2"},
-                                     {kPi / 3, "π/3"},
-                                     {kPi / 4, "π/4"},
-                                     {kPi * kPi, "π²"},
-                                     {2 * kPi * kPi, "2π²"},
-                                     {1.5, "3/2"},
-                                     {4.0 / 3, "4/3"},
-                                     {kPi / 6, "π/6"},
-                                     {4 * kPi / 3, "4π/3"},
-                                     {std::numbers::sqrt2, "√2"}};
   std::string name;
   int found = 0;
   for (const Usual& u : kUsual) {

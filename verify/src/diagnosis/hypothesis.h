@@ -56,6 +56,9 @@ struct Blame {
 /// "2", "1/π", …: usual constants within relative `error` of the value; empty if none or several.
 std::string usual_constant(double value, double error);
 
+/// The usual constant nearest to a value.
+double nearest_usual_constant(double value);
+
 /// How well a common factor of all residuals is known, relative.
 double error_of_constant(const Observations& observations);
 

@@ -134,6 +134,13 @@ void add_companion_probability(std::vector<Hypothesis>& list, const Companion& c
   any.prediction = [density = c.density](const Place& p, std::span<const double> n) {
     return std::max(0.0, n[0] * p.base + n[1] * density(p));
   };
+  // Without a part of the companion it is a constant for each view, which explains nothing.
+  any.charge = [](const std::vector<std::vector<double>>& numbers) -> std::optional<double> {
+    constexpr double kPart = 0.05;
+    double part = 0;
+    for (const auto& n : numbers) part = std::max(part, std::abs(n[1]));
+    return part > kPart ? std::optional(0.0) : std::nullopt;
+  };
   any.words = [name = std::string(c.name), blame](std::span<const double>) {
     return "the probabilities of the lobes are wrong in " + blame.function +
            " (a mixture with a lobe that is " + name + ")";

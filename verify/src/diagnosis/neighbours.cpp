@@ -187,6 +187,45 @@ bool samples_break_a_symmetry(const ReportEvidence& evidence) {
   return statistic > kCertain;
 }
 
+double share_never_sampled(const ViewEvidence& view) {
+  constexpr std::size_t kCells = 48;
+  constexpr int kSamples = 100'000;
+  constexpr int kSteps = 3;
+  // A cell that expects so many stays empty by chance once in 5e8 times.
+  constexpr double kMany = 20;
+  const Domain& domain = view.pair->domain;
+  if (domain.dimension() == 0) return 0;
+  const Chart& chart = domain.chart();
+  const auto cell_of = [](double c) {
+    return std::min(kCells - 1, static_cast<std::size_t>(c * kCells));
+  };
+  std::vector<int> seen(kCells * kCells);
+  Random random(kSeed, kStream + 2);
+  for (int i = 0; i < kSamples; ++i) {
+    const auto s = view.pair->next(random);
+    if (!s || s->mass > 0 || !is_finite(s->x)) continue;
+    const Point2 p = chart.to_square(s->x);
+    ++seen[cell_of(p[0]) * kCells + (domain.dimension() == 1 ? 0 : cell_of(p[1]))];
+  }
+  double never = 0, total = 0;
+  const std::size_t second = domain.dimension() == 1 ? 1 : kCells;
+  for (std::size_t i = 0; i < kCells; ++i) {
+    for (std::size_t j = 0; j < second; ++j) {
+      double mass = 0;
+      for (int k = 0; k < kSteps * kSteps; ++k) {
+        const Point2 p = {
+            (static_cast<double>(i) + (k % kSteps + 0.5) / kSteps) / kCells,
+            (static_cast<double>(j) + (k / kSteps + 0.5) / kSteps) / static_cast<double>(second)};
+        mass += pdf_at(view, chart.from_square(p)) * chart.element(p) /
+                (kSteps * kSteps * kCells * static_cast<double>(second));
+      }
+      total += mass;
+      if (mass * kSamples > kMany && seen[i * kCells + j] == 0) never += mass;
+    }
+  }
+  return total > 0 ? never / total : 0;
+}
+
 bool map_jumps(const ViewEvidence& view) {
   constexpr int kSteps = 4096;
   if (view.pair->draw || !view.pair->sample) return false;

@@ -11,7 +11,9 @@ namespace plumbline::verify {
 namespace {
 
 constexpr std::size_t kExactPerView = 400;
-constexpr std::size_t kMostFitted = 240;  // of all views
+// Points and bins of all views that a fit looks at: at first, and in the end.
+constexpr std::size_t kFewFitted = 40;
+constexpr std::size_t kMostFitted = 240;
 // A point at a fold of the map may give a wrong difference with a small error.
 constexpr double kFoldShare = 0.003;
 constexpr double kFolds = 2;
@@ -40,23 +42,37 @@ struct BinPrediction {
 
 /// Mean of the prediction over the nodes, in units of the bin's expected count. The nodes stand for
 /// the bin as strata do: their mean is better known than that of so many random points.
+///
+/// @param stride  between the nodes that are looked at
 BinPrediction predict(const CountedBin& bin, const Prediction& prediction,
-                      std::span<const double> parameters) {
-  double mean = 0, squares = 0;
+                      std::span<const double> parameters, std::size_t stride = 1) {
+  double mean = 0, squares = 0, looked_at = 0;
   bool seen = false;
-  for (std::size_t i = 0; i < bin.nodes.size(); ++i) {
+  for (std::size_t i = stride / 2; i < bin.nodes.size(); i += stride) {
+    looked_at += bin.shares[i];
     if (!(bin.nodes[i].base > 0)) continue;
     seen = true;
     const double ratio = prediction(bin.nodes[i], parameters) / bin.nodes[i].base;
     mean += bin.shares[i] * ratio;
     squares += bin.shares[i] * ratio * ratio;
   }
-  if (!seen) return {bin.expected, bin.expected_error};
+  if (!seen || !(looked_at > 0)) return {bin.expected, bin.expected_error};
+  mean /= looked_at;
+  squares /= looked_at;
   const double spread = std::sqrt(std::max(0.0, squares - mean * mean));
   const double of_nodes =
       spread < 1e-12 * std::abs(mean) ? 0 : spread / std::sqrt(double(bin.nodes.size()));
-  return {bin.expected * mean, std::hypot(bin.expected * of_nodes, bin.expected_error * mean),
-          of_nodes > 0};
+  BinPrediction p{bin.expected * mean,
+                  std::hypot(bin.expected * of_nodes, bin.expected_error * mean), of_nodes > 0};
+  if (p.varies && stride == 1 && !bin.measures.empty()) {
+    double direct = 0;
+    for (std::size_t i = 0; i < bin.nodes.size(); ++i) {
+      direct += bin.samples * bin.measures[i] * prediction(bin.nodes[i], parameters);
+    }
+    // Where the two ways to add up differ, the nodes are too few for either.
+    if (std::isfinite(direct)) p.error = std::hypot(p.error, direct - p.expected);
+  }
+  return p;
 }
 
 /// Standard normal under the prediction. @source Freeman, Tukey 1950: the roots of Poisson counts
@@ -107,6 +123,8 @@ void add_bins(const ViewEvidence& view, ViewObservations& out) {
     bin.expected = seen.expected;
     bin.expected_error = seen.expected_error;
     bin.shares = seen.shares;
+    bin.measures = seen.measures;
+    bin.samples = view.samples;
     for (const Vec3& x : seen.nodes) {
       bin.nodes.push_back({&view, view.wo.value_or(Vec3{}), x, pdf_at(view, x)});
       if (bin.nodes.back().base > 0) continue;
@@ -278,11 +296,15 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
   fit.worst = std::max(fit.worst, pulls.worst() / allowed);
   if (o.judge_mass) {
     const MassSeen& mass = *o.view->mass;
+    // Numbers are fitted to a part of the counts; nodes are no cubature.
+    constexpr double kFittedBins = 60;
+    const double part =
+        std::min(0.5, kFittedBins / std::max(1.0, static_cast<double>(o.bins.size())));
+    const double of_fit = numbers.empty() && !varies ? 0 : 4 / std::sqrt(n * part);
     const double missing = total + mass.atoms + mass.rejected + o.view->stray_share - 1;
     const double error = mass.integral_error * total / std::max(mass.integral, 1e-300) +
                          mass.rejected_error + 4 * std::sqrt(variance) +
-                         4 * std::sqrt(o.view->stray_share / n) + kMassTolerance +
-                         (numbers.empty() && !varies ? 0 : 4 / std::sqrt(n));
+                         4 * std::sqrt(o.view->stray_share / n) + kMassTolerance + of_fit;
     if (!(std::abs(missing) <= error)) return fit;
   }
   fit.admissible = fit.tested > 0;
@@ -298,9 +320,10 @@ std::vector<double> Observations::residuals(const Prediction& prediction,
   for (const ViewObservations& o : views_) {
     if (o.exact.size() + o.bins.size() > 0) ++views;
   }
+  const std::size_t all = flatten ? kFewFitted : kMostFitted;
   const std::size_t each =
-      view >= 0 ? kMostFitted / 4
-                : std::max<std::size_t>(16, kMostFitted / std::max(views, std::size_t{1}));
+      view >= 0 ? all / 2
+                : std::max<std::size_t>(flatten ? 6 : 16, all / std::max(views, std::size_t{1}));
   for (std::size_t v = 0; v < views_.size(); ++v) {
     if (view >= 0 && v != static_cast<std::size_t>(view)) continue;
     const ViewObservations& o = views_[v];
@@ -312,7 +335,8 @@ std::vector<double> Observations::residuals(const Prediction& prediction,
     const std::size_t bin_step = 2 * std::max<std::size_t>(1, o.bins.size() / (2 * each));
     for (std::size_t i = 0; i < o.bins.size(); i += bin_step) {
       if (!o.bins[i].judged || o.bins[i].edge) continue;
-      out.push_back(pull(o.bins[i], predict(o.bins[i], prediction, parameters)));
+      const std::size_t stride = flatten && o.bins[i].nodes.size() > 8 ? 4 : 1;
+      out.push_back(pull(o.bins[i], predict(o.bins[i], prediction, parameters, stride)));
     }
   }
   for (double& r : out) {

@@ -23,7 +23,8 @@ struct ExactPoint {
 /// A bin that samples were counted in.
 struct CountedBin {
   std::vector<Place> nodes;
-  std::vector<double> shares;
+  std::vector<double> shares, measures;
+  double samples = 0;
   double observed = 0, expected = 0, expected_error = 0;
   bool judged = true;  ///< false: strays lie in it as well, it counts for the mass only
   bool edge = false;   ///< the pdf is 0 in a part of it: nodes say little of a ratio that varies

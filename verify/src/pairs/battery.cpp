@@ -31,10 +31,11 @@ std::vector<BinSeen> bins_seen(const BinnedPair& binned) {
     double total = 0;
     for (std::size_t fine = i << finer; fine < (i + 1) << finer; ++fine) {
       if (fine >= binned.expected().value.size()) continue;
-      for (const auto& [x, share] : binned.nodes_of(fine)) {
-        bins[i].nodes.push_back(x);
-        bins[i].shares.push_back(share);
-        total += share;
+      for (const BinnedPair::Node& node : binned.nodes_of(fine)) {
+        bins[i].nodes.push_back(node.x);
+        bins[i].shares.push_back(node.mass);
+        bins[i].measures.push_back(node.measure);
+        total += node.mass;
       }
     }
     bins[i].expected_error = std::sqrt(table.variance[i]);
@@ -134,11 +135,10 @@ Report check_pair(const SamplingPair& pair, const ContractOptions& options) {
   PairOutcome outcome = judge_pair(pair, options);
   Report report(std::move(outcome.results));
   if (outcome.nothing) {
-    report.results.push_back(
-        nothing_sampled(pair.name, options,
-                        "the sampler rejected every random number, so that nothing was tested",
-                        "see that it takes them as it is given them, and that what it is asked "
-                        "about (direction, side, light) is one that it samples"));
+    report.results.push_back(nothing_sampled(
+        pair.name, options, "the sampler rejected every random number, so that nothing was tested",
+        "see that it takes them as it is given them, and that what it is asked "
+        "about (direction, side, light) is one that it samples"));
   }
   if (outcome.view.failed) name_cause(diagnose({{std::move(outcome.view)}, {}, {}}), report);
   return report;

@@ -215,25 +215,26 @@ std::size_t BinnedPair::locate(const Vec3& x) const {
   return tree_ ? tree_->locate(pair_.domain.chart().to_square(x)) : static_cast<std::size_t>(x[0]);
 }
 
-std::vector<std::pair<Vec3, double>> BinnedPair::nodes_of(std::size_t bin) const {
+std::vector<BinnedPair::Node> BinnedPair::nodes_of(std::size_t bin) const {
   constexpr int kSteps = 2;
-  if (!tree_) return {{{static_cast<double>(bin), 0, 0}, expected_.value[bin]}};
+  if (!tree_) return {{{static_cast<double>(bin), 0, 0}, expected_.value[bin], 1}};
   const Box& box = tree_->box(bin);
   const Chart& chart = pair_.domain.chart();
   const int second = pair_.domain.dimension() == 1 ? 1 : kSteps;
-  std::vector<std::pair<Vec3, double>> nodes;
+  const double area = (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]) / (kSteps * second);
+  std::vector<Node> nodes;
   double total = 0;
   for (int i = 0; i < kSteps; ++i) {
     for (int j = 0; j < second; ++j) {
       const Point2 p = {box.low[0] + (box.high[0] - box.low[0]) * (i + 0.5) / kSteps,
                         box.low[1] + (box.high[1] - box.low[1]) * (j + 0.5) / second};
       const Vec3 x = chart.from_square(p);
-      const double mass = pair_.pdf(x) * chart.element(p);
-      nodes.emplace_back(x, mass);
+      const double measure = chart.element(p) * area, mass = pair_.pdf(x) * measure;
+      nodes.push_back({x, mass, measure});
       total += mass;
     }
   }
-  for (auto& node : nodes) node.second = total > 0 ? node.second / total * expected_.value[bin] : 0;
+  for (Node& n : nodes) n.mass = total > 0 ? n.mass / total * expected_.value[bin] : 0;
   return nodes;
 }
 

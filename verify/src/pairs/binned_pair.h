@@ -58,8 +58,12 @@ class BinnedPair {
   /// lobes in float.
   double rounding() const { return rounding_; }
 
-  /// Points of a finest bin with about the share of its mass that lies around each.
-  std::vector<std::pair<Vec3, double>> nodes_of(std::size_t bin) const;
+  /// A point of a finest bin with about the mass that lies around it, and the measure.
+  struct Node {
+    Vec3 x;
+    double mass, measure;
+  };
+  std::vector<Node> nodes_of(std::size_t bin) const;
 
   /// Middle of a bin of a depth, in the domain.
   Vec3 center(int depth, std::size_t bin) const;

@@ -227,13 +227,14 @@ void ChiSquareLook::judge(CheckResult& r) const {
     r.reason = "the masses of bins that hold " + number(levels_.front().unresolved) +
                " of the samples are not known well enough";
     r.advice =
-        "state where the density jumps (Domain::with_breaks, equirectangular, octahedral), or allow "
+        "state where the density jumps (Domain::with_breaks, equirectangular, octahedral), or "
+        "allow "
         "more `evaluations`";
   } else if (bound_ <= options_.deviation) {
     r.verdict = Verdict::pass;
   } else {
-    r.reason = "neither a difference nor a deviation below " + number(options_.deviation) +
-               " is proven";
+    r.reason =
+        "neither a difference nor a deviation below " + number(options_.deviation) + " is proven";
     r.advice = "allow more `samples`";
   }
 }

@@ -19,6 +19,8 @@ using Sampler = std::function<std::optional<SampleRecord>(const Uniforms&)>;
 // What counting has to reach at 99.9 %: less than half of the promise of 1e-3.
 constexpr double kCountedError = 4e-4;
 constexpr double kPassLevel = 1e-3;
+// What lines have to reach to be worth their evaluations: less than half of the strict promise.
+constexpr double kLineError = 2.5e-5;
 // None of so many: at most 2.6e-5 with 99.9 %.
 constexpr std::uint64_t kProbes = 1 << 18;
 constexpr std::uint64_t kMostCounted = 1 << 22;
@@ -127,12 +129,14 @@ RejectedShare count(const Rejects& rejects, std::uint64_t at_least, std::uint64_
   }
 }
 
-/// Two random points in each cell of a grid over the cube.
-RejectedShare on_grid(const Sampler& sample, int per_side, double epsilon, Random& random) {
+/// Two random points in each cell of a grid over the square or cube.
+RejectedShare on_grid(const Sampler& sample, int numbers, int per_side, double epsilon,
+                      Random& random) {
+  const int layers = numbers == 2 ? 1 : per_side;
   const auto rejected = [&](int i, int j, int k) {
-    Uniforms u{};
     const std::array<int, 3> cell{i, j, k};
-    for (std::size_t d = 0; d < 3; ++d) {
+    Uniforms u{};
+    for (std::size_t d = 0; d < static_cast<std::size_t>(numbers); ++d) {
       u[d] = std::min((cell[d] + random.uniform()) / per_side, 1 - epsilon);
     }
     return sample(u) ? 0.0 : 1.0;
@@ -140,14 +144,14 @@ RejectedShare on_grid(const Sampler& sample, int per_side, double epsilon, Rando
   double sum = 0, squares = 0;
   for (int i = 0; i < per_side; ++i) {
     for (int j = 0; j < per_side; ++j) {
-      for (int k = 0; k < per_side; ++k) {
+      for (int k = 0; k < layers; ++k) {
         const double a = rejected(i, j, k), b = rejected(i, j, k);
         sum += (a + b) / 2;
         squares += (a - b) * (a - b) / 4;
       }
     }
   }
-  const double cells = std::pow(per_side, 3);
+  const double cells = static_cast<double>(per_side) * per_side * layers;
   return {sum / cells, squares / (cells * cells), 0.5 / cells, 2 * cells};
 }
 
@@ -162,10 +166,17 @@ RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon, std
   };
   const RejectedShare probed = count(rejects, kProbes, kProbes);
   if (probed.value == 0) return probed;
-  if (numbers <= 2) return RejectedLines(sample, numbers, epsilon, seed).measure();
+  if (numbers == 1) return RejectedLines(sample, numbers, epsilon, seed).measure();
+  if (numbers == 2) {
+    const RejectedShare lines = RejectedLines(sample, numbers, epsilon, seed).measure();
+    if (lines.error(kPassLevel) <= kLineError) return lines;
+    // Borders that no lines follow, many thin strips: points do as well, and cost less.
+    const RejectedShare grid = on_grid(sample, numbers, 768, epsilon, random);
+    return grid.error(kPassLevel) < lines.error(kPassLevel) ? grid : lines;
+  }
   RejectedShare share;
   for (const int per_side : {48, 64, 96}) {
-    share = on_grid(sample, per_side, epsilon, random);
+    share = on_grid(sample, numbers, per_side, epsilon, random);
     if (share.error(kPassLevel) <= kCountedError) break;
   }
   return share;
