@@ -13,7 +13,7 @@
 namespace plumbline::tests::corpus {
 
 /// What a battery returns.
-using Results = std::vector<verify::CheckResult>;
+using Results = verify::Report;
 
 /// One subject with its parameters, correct or with one fault put in.
 struct Case {
