@@ -186,6 +186,7 @@ ImageResult check_image(const ImageOptions& options, const Image& image, const I
     check.verdict = Verdict::fail;
     check.reason = "a pixel of the image or of the reference is not finite";
   }
+  if (check.verdict == Verdict::inconclusive) check.advice = "render more samples per pixel";
   check.kind = CheckKind::image;
   check.subject = options.subject;
   check.expected = options.expected;

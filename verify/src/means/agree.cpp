@@ -45,6 +45,7 @@ CheckResult check_agreement(const MeanOptions& options, const MomentSampler& a,
                         difference(evidence(moments_a), evidence(moments_b)));
     if (result.verdict != Verdict::inconclusive) break;
   }
+  if (result.verdict == Verdict::inconclusive) result.advice = "raise `max_samples`";
   result.kind = CheckKind::agreement;
   result.seconds = watch.seconds();
   result.subject = options.subject;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <plumbline/verify/mean.h>
@@ -8,6 +9,20 @@
 #include "means/mean_judgement.h"
 
 namespace plumbline::verify {
+
+namespace {
+
+/// What helps where samples have not decided.
+std::string advice(const MeanOptions& options) {
+  if (!options.exact_variance) {
+    return "raise `max_samples`, or give `exact_variance` where a closed form is known";
+  }
+  return std::isinf(*options.exact_variance)
+             ? "expect `inconclusive`: the bound stands all the same"
+             : "raise `max_samples`";
+}
+
+}  // namespace
 
 Evidence evidence(const Moments& moments) {
   Evidence e;
@@ -96,6 +111,7 @@ void MeanCheck::judge(const Evidence& evidence, std::size_t look) {
   question.last_fail_level = plan_.fail_level.back();
   question.max_samples = plan_.samples.back();
   result_ = judge_mean(question, evidence);
+  if (result_.verdict == Verdict::inconclusive) result_.advice = advice(options_);
   result_.kind = CheckKind::mean;
   result_.seconds = watch_.seconds();
   result_.subject = options_.subject;
