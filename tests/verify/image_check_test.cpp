@@ -202,7 +202,7 @@ TEST(ImageCheck, PValuesOfAnUnbiasedRenderAreFlat) {
   for (const auto& [name, value] : r.check.figures) {
     if (name == "p-value of a flat histogram") flatness = value;
   }
-  EXPECT_GT(flatness, 1e-4);
+  EXPECT_GT(flatness, ErrorBudget{}.fail_level());
 }
 
 TEST(ImageCheck, RefusesImagesThatDoNotMatch) {
