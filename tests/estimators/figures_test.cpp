@@ -10,6 +10,7 @@
 
 #include <plumbline/renderer/mis/estimators.h>
 #include <plumbline/reports/results.h>
+#include <plumbline/verify/detail/budget.h>
 #include <plumbline_tests/support.h>
 
 #include "estimator_cases.h"
@@ -160,8 +161,10 @@ void expect_on_the_line(const EstimatorCase& c, const ErrorCurve& curve) {
   if (!errors_are_normal(c, n)) return;
   const boost::math::chi_squared distribution(kReplicates);
   const double ratio = kReplicates * curve.squared.back() / exact_squared_error(c, n);
-  EXPECT_GT(boost::math::cdf(distribution, ratio), 1e-9) << c.subject();
-  EXPECT_GT(boost::math::cdf(complement(distribution, ratio)), 1e-9) << c.subject();
+  // An excess kurtosis of 0.25 makes the squares vary by 6 % more, which takes 1e-12 to 1e-11.
+  const double level = verify::ErrorBudget{}.fail_level() / 100;
+  EXPECT_GT(boost::math::cdf(distribution, ratio), level) << c.subject();
+  EXPECT_GT(boost::math::cdf(complement(distribution, ratio)), level) << c.subject();
 }
 
 void add_error_curve(const EstimatorCase& c, Figure& figure) {

@@ -20,6 +20,9 @@ namespace {
 
 using verify::Verdict;
 
+/// Of one check: how often a correct count may look wrong.
+const double kLevel = verify::ErrorBudget{}.fail_level();
+
 EstimatorCase case_named(const analytic::Integral1d& integral, const std::string& strategy) {
   for (EstimatorCase& c : estimator_cases(integral)) {
     if (c.strategy == strategy) return std::move(c);
@@ -80,7 +83,7 @@ TEST(BadGaussian, TheLargestWeightGrowsWithN) {
       for (int k = 0; k < n; ++k) largest = std::max(largest, c.draw(random));
       above += largest > median;
     }
-    EXPECT_GT(coin_p_value(above, kReplicates), 1e-8) << n << ' ' << above;
+    EXPECT_GT(coin_p_value(above, kReplicates), kLevel) << n << ' ' << above;
     EXPECT_GT(median, 3 * previous) << n;  // N^(1 − σp²/σf²) = N^0.64: 4.4 for ten times as many
     previous = median;
   }
@@ -115,8 +118,8 @@ TEST(BadGaussian, AThousandSamplesWithMisBeatAHundredThousandWithout) {
   };
   const int far_with = far_off(with, 1000, distance, random);
   const int far_without = far_off(without, 100000, distance, random);
-  EXPECT_GT(chance_of(far_with), 1e-8) << far_with << " of 80";
-  EXPECT_LT(chance_of(far_without), 1e-8) << far_without << " of 80";
+  EXPECT_GT(chance_of(far_with), kLevel) << far_with << " of 80";
+  EXPECT_LT(chance_of(far_without), kLevel) << far_without << " of 80";
 }
 
 TEST(Sidewalk, HalfTheRaysAtTheSunMakeItCheap) {

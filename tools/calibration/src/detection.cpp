@@ -96,7 +96,7 @@ CheckResult lobe_weight(std::uint64_t seed) {
 CheckResult shifted_image(std::uint64_t seed) {
   verify::ImageOptions o;
   o.tolerance = 0.02;
-  return check_image(o, noisy_image(16, 128, 1.05, seed), grey_image(16)).check;
+  return check_image(o, noisy_image(16, 144, 1.05, seed), grey_image(16)).check;
 }
 
 /// A tenth too much is caught within 20,000 samples.
