@@ -37,7 +37,7 @@ void add_diffuse_cases(std::vector<Case>& cases) {
   correct<D3>(cases, "sheen/roughness 0.2/double", Sheen<double>{0.2}, sheen_options());
   correct<D3>(cases, "retroreflector/exponent 50/double", Retroreflector<double>{},
               seen_from({0, 60, 88}));
-  correct<F3>(cases, "retroreflector/exponent 1000/float", Retroreflector<float>{1000},
+  correct<F3>(cases, "retroreflector/exponent 200/float", Retroreflector<float>{200},
               seen_from({40, 80}));
   correct<D3>(cases, "regolith/generator/double", Regolith{}, seen_from({0, 80}));
 

@@ -23,7 +23,7 @@ using D3 = V3<double>;
 
 void add_phong_cases(std::vector<Case>& cases) {
   correct<D3>(cases, "phong/exponent 30/double", phong(0), phong_options({0, 60, 85}));
-  correct<F3>(cases, "phong/exponent 500/float", Phong<float>{0.2F, 0.7F, 500},
+  correct<F3>(cases, "phong/exponent 150/float", Phong<float>{0.2F, 0.7F, 150},
               phong_options({20, 70}));
   correct<F3>(cases, "blinn/exponent 20/float", Blinn<float>{20}, seen_from({0, 45}));
   correct<D3>(cases, "blinn/exponent 100/double", blinn(0), seen_from({0, 60, 80}));
