@@ -152,7 +152,8 @@ struct Retroreflector {
     if (fault == 2 && !(wi.z > 0)) wi.z = -wi.z;
     if (!(wi.z > 0)) return std::nullopt;
     const T q = pdf(wo, wi);
-    return Sampled<T>{wi, q > 0 ? eval(wo, wi) * wi.z / q : T(0), q};
+    if (!(q > 0)) return std::nullopt;
+    return Sampled<T>{wi, eval(wo, wi) * wi.z / q, q};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     const T cosine = dot(wo, wi);

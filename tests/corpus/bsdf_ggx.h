@@ -102,7 +102,8 @@ struct Conductor {
       const T masked = fault == 7 ? ggx.g1(wo) : ggx.g2(wo, far) / ggx.g1(wo);
       return Sampled<T>{wi, schlick(f0, dot(wo, h)) * masked, q};
     }
-    return Sampled<T>{wi, q > 0 ? eval(given, wi) * std::abs(wi.z) / q : T(0), q};
+    if (!(q > 0)) return std::nullopt;
+    return Sampled<T>{wi, eval(given, wi) * std::abs(wi.z) / q, q};
   }
   static bool turn(V3<T>& wo, V3<T>& wi) {
     if (wo.z < 0) wo.z = -wo.z, wi.z = -wi.z;

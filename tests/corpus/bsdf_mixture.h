@@ -181,7 +181,8 @@ struct Blend {
     if (!s) return std::nullopt;
     const T q = fault == 1 ? s->pdf : pdf(wo, s->wi);
     if (fault == 2) return Sampled<T>{s->wi, s->weight, q};
-    return Sampled<T>{s->wi, q > 0 ? eval(wo, s->wi) * std::abs(s->wi.z) / q : T(0), q};
+    if (!(q > 0)) return std::nullopt;
+    return Sampled<T>{s->wi, eval(wo, s->wi) * std::abs(s->wi.z) / q, q};
   }
   template <class C>
   std::optional<Sampled<T>> take(const C& bsdf, const V3<T>& wo, const P3<T>& u) const {

@@ -66,7 +66,8 @@ struct Blinn {
     if (fault == 4 && dot(wo, h) > 0 && wi.z < 0) return sample(wo, {below_one(u.x / 2), u.y});
     if (!(wi.z > 0) || !(dot(wo, h) > 0)) return std::nullopt;
     const T q = pdf(wo, wi);
-    return Sampled<T>{wi, q > 0 ? eval(wo, wi) * wi.z / q : T(0), q};
+    if (!(q > 0)) return std::nullopt;
+    return Sampled<T>{wi, eval(wo, wi) * wi.z / q, q};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
@@ -125,7 +126,8 @@ struct AshikhminShirley {
     }
     if (!(wi.z > 0)) return std::nullopt;
     const T q = pdf(wo, wi);
-    return Sampled<T>{wi, q > 0 ? eval(wo, wi) * wi.z / q : T(0), q};
+    if (!(q > 0)) return std::nullopt;
+    return Sampled<T>{wi, eval(wo, wi) * wi.z / q, q};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
