@@ -28,7 +28,7 @@ std::string test_name(const testing::TestParamInfo<Case>& info) {
 
 class CorrectCode : public testing::TestWithParam<Case> {};
 
-TEST_P(CorrectCode, Passes) { EXPECT_PASS(GetParam().run(check_seed(GetParam().name))); }
+TEST_P(CorrectCode, Passes) { PLUMBLINE_EXPECT_PASS(GetParam().run(check_seed(GetParam().name))); }
 
 class FaultyTwin : public testing::TestWithParam<Case> {};
 

@@ -127,13 +127,13 @@ Pair pair_of(std::string name, Domain domain, Technique technique) {
   const auto t = std::make_shared<const Technique>(std::move(technique));
   const auto pdf = [t](const Point& x) { return t->pdf(x); };
   if constexpr (requires(Random & random) { t->sample(random); }) {
-    return verify::make_pair<Point>(
+    return verify::sampling_pair<Point>(
         std::move(name), std::move(domain), [t](Random& random) { return t->sample(random); }, pdf);
   } else if constexpr (requires(T u) { t->sample(u, u); }) {
-    return verify::make_pair<Point>(
+    return verify::sampling_pair<Point>(
         std::move(name), std::move(domain), [t](T u, T v) { return t->sample(u, v); }, pdf);
   } else {
-    return verify::make_pair<Point>(
+    return verify::sampling_pair<Point>(
         std::move(name), std::move(domain), [t](T u) { return t->sample(u); }, pdf);
   }
 }

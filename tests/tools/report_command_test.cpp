@@ -13,7 +13,7 @@ namespace {
 
 verify::CheckResult passed(int number) {
   verify::CheckResult result;
-  result.check = "mean";
+  result.kind = verify::CheckKind::mean;
   result.subject = "budget/" + std::to_string(number);
   result.verdict = verify::Verdict::pass;
   return result;

@@ -242,7 +242,7 @@ std::vector<FaultyCase> values() {
 
 SamplingPair directions(std::string name, std::function<Vec3(double, double)> sample,
                         std::function<double(const Vec3&)> pdf) {
-  return make_pair<Vec3>(std::move(name), Domain::sphere(), std::move(sample), std::move(pdf));
+  return sampling_pair<Vec3>(std::move(name), Domain::sphere(), std::move(sample), std::move(pdf));
 }
 
 std::vector<FaultyCase> points() {
@@ -264,14 +264,14 @@ std::vector<FaultyCase> points() {
                         },
                         [](const Vec3&) { return 1 / (2 * kPi * kPi); })));
   list.push_back(of("disk without the root", K::radius,
-                    make_pair<Vec3>(
+                    sampling_pair<Vec3>(
                         "", Domain::disk(),
                         [](double u, double v) {
                           return Vec3{u * std::cos(2 * kPi * v), u * std::sin(2 * kPi * v), 0};
                         },
                         [](const Vec3&) { return 1 / kPi; })));
   list.push_back(of("triangle without the root", K::radius,
-                    make_pair<Vec3>(
+                    sampling_pair<Vec3>(
                         "", Domain::triangle(),
                         [](double u, double v) {
                           return Vec3{u * (1 - v), u * v, 0};
@@ -293,7 +293,7 @@ std::vector<FaultyCase> points() {
   // A table of 16 columns, looked up one column on.
   const auto table = [](double x) { return x < 1 ? 0.5 + std::floor(16 * x) / 15 : 1.5; };
   list.push_back(of("table read a cell on", K::shifted,
-                    make_pair<Vec3>(
+                    sampling_pair<Vec3>(
                         "", Domain::interval(),
                         [table](double u) {
                           double left = u * 16;
@@ -309,7 +309,7 @@ std::vector<FaultyCase> points() {
                           return table(y - std::floor(y));
                         })));
   list.push_back(of("area of a light", K::distance_or_area,
-                    make_pair<Vec3>(
+                    sampling_pair<Vec3>(
                         "",
                         Domain::surface(
                             [](const Point2& p) {
@@ -337,7 +337,7 @@ std::vector<FaultyCase> points() {
                         })));
   // Two lights in a row: which one, and where on it, by the same number.
   list.push_back(of("number reused", K::numbers_reused,
-                    make_pair<Vec3>(
+                    sampling_pair<Vec3>(
                         "", Domain::unit_square(),
                         [](double u, double v) {
                           return Vec3{u < 0.3 ? u / 2 : 0.5 + u / 2, v, 0};

@@ -16,9 +16,9 @@
 namespace plumbline::verify {
 namespace {
 
-const CheckResult* find(const std::vector<CheckResult>& results, const std::string& check) {
+const CheckResult* find(const Report& results, CheckKind kind) {
   const auto at = std::find_if(results.begin(), results.end(),
-                               [&](const CheckResult& r) { return r.check == check; });
+                               [&](const CheckResult& r) { return r.kind == kind; });
   return at == results.end() ? nullptr : &*at;
 }
 
@@ -30,7 +30,7 @@ ContractOptions fresh() {
 
 /// Rejects the share of its numbers, and has the pdf that goes with that.
 SamplingPair rejecting(double share) {
-  return make_pair<double>(
+  return sampling_pair<double>(
       "rejecting", Domain::interval(),
       [share](double u) -> std::optional<double> {
         if (u < share) return std::nullopt;
@@ -41,7 +41,7 @@ SamplingPair rejecting(double share) {
 
 TEST(NothingSampled, IsInconclusiveForAPair) {
   const auto results = check_pair(rejecting(1), fresh());
-  const CheckResult* r = find(results, "samples");
+  const CheckResult* r = find(results, CheckKind::samples);
   ASSERT_NE(r, nullptr);
   EXPECT_EQ(r->verdict, Verdict::inconclusive);
   EXPECT_FALSE(r->as_expected());
@@ -49,7 +49,7 @@ TEST(NothingSampled, IsInconclusiveForAPair) {
 }
 
 TEST(NothingSampled, IsNotSaidOfASamplerThatGivesLittle) {
-  EXPECT_EQ(find(check_pair(rejecting(0.999), fresh()), "samples"), nullptr);
+  EXPECT_EQ(find(check_pair(rejecting(0.999), fresh()), CheckKind::samples), nullptr);
 }
 
 TEST(NothingSampled, IsInconclusiveForABsdfThatIsBlackFromEverywhere) {
@@ -61,11 +61,11 @@ TEST(NothingSampled, IsInconclusiveForABsdfThatIsBlackFromEverywhere) {
   o.random_directions = 0;
   o.contract = fresh();
   const auto results = check_bsdf("black", black, o);
-  const CheckResult* r = find(results, "samples");
+  const CheckResult* r = find(results, CheckKind::samples);
   ASSERT_NE(r, nullptr);
   EXPECT_EQ(r->verdict, Verdict::inconclusive);
   EXPECT_FALSE(r->reason.empty());
-  EXPECT_EQ(find(check_bsdf("diffuse, black from below", erased(Diffuse{}), o), "samples"),
+  EXPECT_EQ(find(check_bsdf("diffuse, black from below", erased(Diffuse{}), o), CheckKind::samples),
             nullptr);
 }
 
