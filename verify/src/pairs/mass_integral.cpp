@@ -16,11 +16,14 @@ namespace {
 constexpr double kNodesPerCell = 1;
 constexpr int kMaxRounds = 4;
 constexpr double kWorthwhile = 0.9;
-// The highest degree of a fit is several times what a smooth function leaves beyond it.
+// The highest degree of a fit is several times what a smooth function leaves beyond it. What nodes
+// have measured needs no hope.
 constexpr double kHope = 4;
-// 99.9 % of a normal deviate, two-sided; the same level decides whether the target is reached.
-constexpr double kQuantile = 3.3;
+// At which it is decided whether the target is reached.
 constexpr double kPassLevel = 1e-3;
+// Nodes that add more than this share of the target show something that the cells have missed.
+constexpr double kSurprise = 0.02;
+constexpr std::size_t kMostSurprises = 20'000;
 
 struct PilotPoint {
   Point2 p{};
@@ -69,7 +72,8 @@ class Integrator {
     double before = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kMaxRounds; ++round) {
       // The last rounds may spend what the first have left.
-      refine(q_.max_evaluations * static_cast<std::uint64_t>(round + 2) / (kMaxRounds + 1));
+      refine(q_.max_evaluations * static_cast<std::uint64_t>(round + 2) / (kMaxRounds + 1),
+             round == 0 ? kHope : 1);
       result = correct();
       const double error = result.error(kPassLevel);
       // Cells that no longer show what they are off by would cost more rounds than they are worth.
@@ -173,12 +177,13 @@ class Integrator {
     if (can_be_halved(cell) && cell.key > 0) queue_.push({cell.key, index});
   }
 
-  void refine(std::uint64_t until) {
+  void refine(std::uint64_t until, double hope) {
     const double reserved = static_cast<double>(q_.own + 2 * q_.spread);
     const auto spent = [&] { return static_cast<double>(evaluations_) + reserved; };
     while (!queue_.empty() && spent() < static_cast<double>(until)) {
-      if (!(kQuantile * std::sqrt(std::max(0.0, sum_of_squares_)) > kHope * q_.target)) break;
       const auto [key, index] = queue_.top();
+      const double expected = bernstein(std::max(0.0, sum_of_squares_), key, kPassLevel);
+      if (!(expected > hope * q_.target)) break;
       queue_.pop();
       if (cells_[index].halves != 0 || key != cells_[index].key) continue;  // not of this state
       halve(index);
@@ -221,6 +226,7 @@ class Integrator {
   /// One round of random nodes on the cells as they are.
   MassIntegral correct() {
     result_ = {};
+    surprises_.clear();
     result_.value.assign(q_.bins, 0.0);
     result_.variance.assign(q_.bins, 0.0);
     double keys = 0;
@@ -259,6 +265,10 @@ class Integrator {
     result_.variance[cell.bin] += term * term;
     result_.largest_term = std::max(result_.largest_term, std::abs(term));
     cell.measured += term * term;
+    if (std::abs(term) > kSurprise * q_.target && surprises_.size() < kMostSurprises) {
+      surprises_.emplace_back(static_cast<std::size_t>(&cell - cells_.data()),
+                              PilotPoint{p, own_density, value});
+    }
   }
 
   void add_fit_and_nodes(TreeCell& cell) {
@@ -306,17 +316,41 @@ class Integrator {
   void learn() {
     queue_ = {};
     sum_of_squares_ = 0;
+    take_in_surprises();
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       TreeCell& cell = cells_[i];
       if (cell.halves != 0) continue;
-      cell.key = std::max(std::sqrt(cell.measured), cell.key / 4);
+      const double measured = std::sqrt(cell.measured), before = cell.key;
+      choose_cut(cell);
+      cell.key = std::max(measured, before / 4);
       enqueue(i);
     }
+  }
+
+  /// Nodes that contradict the fit of their cell become pilot points, which show its halves where
+  /// to look. The next round draws new nodes.
+  void take_in_surprises() {
+    std::vector<std::vector<PilotPoint>> more(cells_.size());
+    for (const auto& [cell, point] : surprises_) more[cell].push_back(point);
+    surprises_.clear();
+    std::vector<PilotPoint> points;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      TreeCell& cell = cells_[i];
+      if (cell.halves != 0) continue;
+      const std::size_t first = points.size();
+      points.insert(points.end(), pilot_.begin() + static_cast<std::ptrdiff_t>(cell.first),
+                    pilot_.begin() + static_cast<std::ptrdiff_t>(cell.last));
+      points.insert(points.end(), more[i].begin(), more[i].end());
+      cell.first = first;
+      cell.last = points.size();
+    }
+    pilot_ = std::move(points);
   }
 
   const MassQuestion& q_;
   Random random_;
   std::vector<PilotPoint> pilot_;
+  std::vector<std::pair<std::size_t, PilotPoint>> surprises_;  // with their cells
   std::vector<TreeCell> cells_;
   std::vector<std::vector<std::size_t>> roots_of_bin_;
   std::priority_queue<std::pair<double, std::size_t>> queue_;
@@ -329,7 +363,8 @@ class Integrator {
 }  // namespace
 
 double MassIntegral::error(double level) const {
-  return bernstein(variance_of_total, largest_term, level);
+  constexpr double kRounding = 1e-13;  // of thousands of cells that are added up
+  return bernstein(variance_of_total, largest_term, level) + kRounding * std::abs(total);
 }
 
 MassIntegral integrate_mass(const MassQuestion& question, const std::vector<Cell>& cells) {
