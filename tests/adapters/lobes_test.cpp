@@ -135,6 +135,9 @@ struct ByText : Mixture {
 static_assert(verify::detail::numbers_style<verify::detail::SampleLobeOf<ByText>, V, Two>() ==
               verify::detail::NumbersStyle::unknown);
 static_assert(
+    verify::detail::numbers_style<verify::detail::SampleLobeOf<ByText>, V, const char*>() ==
+    verify::detail::NumbersStyle::unknown);
+static_assert(
     verify::detail::numbers_style<verify::detail::SampleLobeOf<ByAVectorOfTwo>, V, Two>() ==
     verify::detail::NumbersStyle::vector);
 

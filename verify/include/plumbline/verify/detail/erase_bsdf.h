@@ -186,8 +186,9 @@ constexpr NumbersStyle numbers_style() {
   } else if constexpr (SeededGenerator<N>) {
     return std::is_invocable_v<const Sampler&, const D&, N&> ? NumbersStyle::own_generator
                                                              : NumbersStyle::unknown;
-  } else if constexpr (std::is_invocable_v<const Sampler&, const D&, const N&>) {
-    return NumbersStyle::vector;
+  } else if constexpr ((HasXy<N> || HasIndex<N>)&&!std::is_pointer_v<N>) {
+    return std::is_invocable_v<const Sampler&, const D&, const N&> ? NumbersStyle::vector
+                                                                   : NumbersStyle::unknown;
   } else {
     return NumbersStyle::unknown;
   }
