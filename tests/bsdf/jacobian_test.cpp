@@ -95,10 +95,11 @@ struct Worst {
   }
 };
 
-/// Points are random, and some lie where a rounding of wo, u or wi changes the product by more than
-/// the tolerance: next to total reflection, at the limb of the visible normals, where a normal is
-/// what two opposite vectors leave. In quad precision the same formulas have 18 digits more, and a
-/// product that is wrong there is a wrong formula; one that is right was rounding.
+/// Points are random, and some may lie where rounding of wo, u or wi changes the product by more
+/// than the tolerance. In quad precision the same formulas have 18 digits more: a product that is
+/// wrong there is a wrong formula, one that is right was rounding, and is counted. Of seven million
+/// points none needs it; a direction refracted by a cosine that is not the scalar product with its
+/// normal needed it at 141 of three million next to u.y = 1, where double was 6e-6 off.
 void add_point(const BsdfRef& bsdf, const Vec3d& wo, std::uint32_t lobe, double ux, double uy,
                const Fault& fault, Worst& worst) {
   const auto in_double = product_at<double>(bsdf, wo, lobe, ux, uy);
@@ -163,9 +164,9 @@ verify::CheckResult result_of(const std::string& subject, const Worst& worst) {
     result.verdict = verify::Verdict::inconclusive;
     result.reason = "only " + std::to_string(worst.points) + " points have a density";
   } else if (result.verdict == verify::Verdict::pass &&
-             200 * worst.ill_conditioned > worst.points) {
+             1000 * worst.ill_conditioned > worst.points) {
     result.verdict = verify::Verdict::inconclusive;
-    result.reason = "double cannot tell at more than one point in 200";
+    result.reason = "double cannot tell at more than one point in 1000";
   }
   return result;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <type_traits>
 
 #include <plumbline/renderer/bsdf/bsdf_sample.h>
 #include <plumbline/renderer/bsdf/fresnel.h>
@@ -162,18 +163,24 @@ struct GgxDielectric {
     // wi = ((cos − g) h − wo)/η with g = η cosθt: Walter et al. 2007, Eq. 40
     const W eta = relative_index<T>(interface.eta, wo.z > T(0));
     const W gap = (eta - W(1)) * (eta + W(1));
-    const T g = safe_sqrt(static_cast<T>(gap + cos2));
+    T g = safe_sqrt(static_cast<T>(gap + cos2));
     const T shrink = static_cast<T>(W(1) / eta);
     // |wi| is 1 only where that cosine is the scalar product of wo with this very normal, which may
-    // be all rounding error: what two opposite vectors left. From outside the cosine so far is not,
-    // though it has the digits that Fresnel's formulas need.
+    // be all rounding error: what two opposite vectors left. From outside the cosine so far is not.
+    // The record is of the direction handed out, and takes the scalar product too, but in float:
+    // there it has lost the digits that Fresnel's formulas need, and the other cosine has them.
     T along = cosine, depth = g;
     if (!has_critical_angle(wo)) {
       along = dot(up, visible.normal) * inverse_length;
       depth = safe_sqrt(static_cast<T>(gap + sqr(static_cast<W>(along))));
+      if constexpr (!std::is_same_v<T, float>) {
+        cosine = along;
+        cos2 = sqr(static_cast<W>(along));
+        g = depth;
+      }
     }
     const Vec3<T> wi = (visible.normal * T((along - depth) * inverse_length) - up) * shrink;
-    if (!(g > T(0) && wi.z < T(0))) return std::nullopt;
+    if (!(cosine > T(0) && g > T(0) && wi.z < T(0))) return std::nullopt;
     const auto transmitted = film.template split<T>(cos2, wo.z > T(0)).transmitted;
     // The Jacobian as in half_vector, with |wo + η wi| = |cos − g| = |η² − 1|/(cos + g).
     const T density = probability * ggx.density(visible.normal) / visible.area;

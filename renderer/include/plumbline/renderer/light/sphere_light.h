@@ -121,8 +121,8 @@ struct SphereLight {
   }
 
   // The far root of |m + t wi|² = R² is −m·wi + half chord. The half chord is the root of
-  // R² − |m|² + (m·wi)², a sum of squares from inside; R² − |m|² sin² would cancel at grazing angles
-  // of a point on the sphere. Where wi leaves the centre behind, the root is the quotient of
+  // R² − |m|² + (m·wi)², a sum of squares from inside; R² − |m|² sin² would cancel at grazing
+  // angles of a point on the sphere. Where wi leaves the centre behind, the root is the quotient of
   // R² − |m|² and the sum.
   template <class T>
   T pdf_from_inside(const Vec3<T>& ref, const Vec3<T>& wi) const {
