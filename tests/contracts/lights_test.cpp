@@ -61,8 +61,11 @@ TEST_P(Lights, KeepTheContract) {
   verify::ContractOptions options;
   options.seed = check_seed(pair.name);
   const auto& chart = GetParam().chart;
-  for (const verify::CheckResult& r :
-       chart ? check_pointwise(pair, options) : check_pair(pair, options)) {
+  for (verify::CheckResult r : chart ? check_pointwise(pair, options) : check_pair(pair, options)) {
+    // Seen from behind a light gives no sample, and the check says that nothing was tested.
+    if (r.kind == verify::CheckKind::samples && pair.name.find("behind") != std::string::npos) {
+      r.expected = verify::Verdict::inconclusive;
+    }
     expect_verdict(r);
   }
   if (chart) {

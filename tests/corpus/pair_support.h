@@ -180,8 +180,8 @@ Pair recorded_pair_of(std::string name, Domain domain, Technique technique) {
 
 /// Maps of at least 64×32 texels break along 100 and more lines. The one place where they say so.
 inline Pair on_map_domain(Pair pair, int width, int height) {
-  pair.domain = Domain::equirectangular(static_cast<std::size_t>(width),
-                                        static_cast<std::size_t>(height));
+  pair.domain =
+      Domain::equirectangular(static_cast<std::size_t>(width), static_cast<std::size_t>(height));
   return pair;
 }
 

@@ -110,7 +110,8 @@ NamedCause named_cause(const Results& results) {
 std::string summary_of(const Results& results) {
   std::map<std::string, int> counts;
   for (const CheckResult& r : results) {
-    if (!r.as_expected()) ++counts[std::string(to_string(r.kind)) + " " + std::string(to_string(r.verdict))];
+    if (!r.as_expected())
+      ++counts[std::string(to_string(r.kind)) + " " + std::string(to_string(r.verdict))];
   }
   std::string text;
   for (const auto& [kind, count] : counts) {

@@ -204,7 +204,8 @@ void ChiSquareLook::judge(CheckResult& r) const {
          (counts.strays.empty() ? std::string() : ", e.g. at " + place(counts.strays.front())));
   }
   if (!(std::abs(excess_) <= mass_tolerance(options_, pair_) + excess_error_)) {
-    fail("∫pdf, atoms and rejected samples add up to " + number(1 + excess_));
+    fail("∫pdf = " + number(pair_.expected().total) + ", with atoms and rejected samples " +
+         number(1 + excess_));
   }
   if (!(worst().p_value >= level_)) {
     const BinTable table = table_of(pair_, worst().depth);

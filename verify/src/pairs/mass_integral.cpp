@@ -47,6 +47,7 @@ class Integrator {
  public:
   Integrator(const MassQuestion& question, const std::vector<Cell>& cells)
       : q_(question),
+        own_(question.own),
         random_(random_for(question.seed, Stream::nodes)),
         roots_of_bin_(question.bins) {
     std::vector<std::vector<PilotPoint>> of_bin(q_.bins);
@@ -71,6 +72,8 @@ class Integrator {
     MassIntegral result;
     double before = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kMaxRounds; ++round) {
+      // What no cells resolve, a lobe along a thin curve, own samples have to average out.
+      if (round > 0) own_ = std::min<std::size_t>(4 * own_, q_.max_evaluations / 4);
       // The last rounds may spend what the first have left.
       refine(q_.max_evaluations * static_cast<std::uint64_t>(round + 2) / (kMaxRounds + 1),
              round == 0 ? kHope : 1);
@@ -132,7 +135,7 @@ class Integrator {
 
   double weight(double node_density, double own_density) const {
     return 1 / (node_density + static_cast<double>(q_.spread) +
-                static_cast<double>(q_.own) * own_density);
+                static_cast<double>(own_) * own_density);
   }
 
   /// What the cell is expected to add to the error, from the nodes of its fit and from the pilot
@@ -178,7 +181,7 @@ class Integrator {
   }
 
   void refine(std::uint64_t until, double hope) {
-    const double reserved = static_cast<double>(q_.own + 2 * q_.spread);
+    const double reserved = static_cast<double>(own_ + 2 * q_.spread);
     const auto spent = [&] { return static_cast<double>(evaluations_) + reserved; };
     while (!queue_.empty() && spent() < static_cast<double>(until)) {
       const auto [key, index] = queue_.top();
@@ -303,7 +306,7 @@ class Integrator {
 
   void add_own_nodes() {
     if (!q_.draw_own) return;
-    for (const Point2& p : q_.draw_own(q_.own)) {
+    for (const Point2& p : q_.draw_own(own_)) {
       TreeCell* cell = leaf_at(p);
       if (cell == nullptr) continue;
       const double value = value_at(p);
@@ -348,6 +351,7 @@ class Integrator {
   }
 
   const MassQuestion& q_;
+  std::size_t own_;
   Random random_;
   std::vector<PilotPoint> pilot_;
   std::vector<std::pair<std::size_t, PilotPoint>> surprises_;  // with their cells

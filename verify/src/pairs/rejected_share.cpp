@@ -200,8 +200,11 @@ RejectedShare measure_rejected(const SamplingPair& pair, std::uint64_t seed) {
     RejectedShare sum;
     for (const PairLobe& lobe : pair.lobes) {
       if (!(lobe.probability > 0)) continue;
+      Random random = random_for(seed, Stream::probes);
       const RejectedShare share =
-          of_numbers(lobe.sample, 2, pair.epsilon, seed).scaled(lobe.probability);
+          (lobe.sample ? of_numbers(lobe.sample, 2, pair.epsilon, seed)
+                       : count([&] { return !lobe.draw(random); }, kProbes, kMostCounted))
+              .scaled(lobe.probability);
       sum.value += share.value;
       sum.variance += share.variance;
       sum.largest_term = std::max(sum.largest_term, share.largest_term);

@@ -38,15 +38,15 @@ enum class CauseKind {
   atom_as_density,     ///< an atom with a made-up density, or its mass wrong
 
   // Not the density.
-  record_pdf,          ///< the pdf stated in the record is wrong, `pdf()` is right
-  value_cosine,        ///< cosθ applied twice in f, or missing
-  value_constant,      ///< f, or the weight, off by a constant: 1/π twice
-  weight,              ///< the weight is wrong, f and the densities are right
-  asymmetric,          ///< f(wo, wi) ≠ f(wi, wo) for a reason not named above
-  energy,              ///< f gives off more than arrives
-  not_finite,          ///< NaN, infinity, a negative density
-  precision,           ///< rounding: a lobe narrower than the arithmetic resolves, a cancellation
-  stale_state,         ///< the answer depends on what was asked before
+  record_pdf,      ///< the pdf stated in the record is wrong, `pdf()` is right
+  value_cosine,    ///< cosθ applied twice in f, or missing
+  value_constant,  ///< f, or the weight, off by a constant: 1/π twice
+  weight,          ///< the weight is wrong, f and the densities are right
+  asymmetric,      ///< f(wo, wi) ≠ f(wi, wo) for a reason not named above
+  energy,          ///< f gives off more than arrives
+  not_finite,      ///< NaN, infinity, a negative density
+  precision,       ///< rounding: a lobe narrower than the arithmetic resolves, a cancellation
+  stale_state,     ///< the answer depends on what was asked before
 };
 
 /// "half-vector Jacobian": the kind as a table's heading shows it.

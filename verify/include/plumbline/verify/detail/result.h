@@ -94,7 +94,7 @@ enum class Figure {
   rejected_error,    ///< of the rejected share
   unresolved_share,  ///< of the mass, in bins whose mass is not known well enough
   unseen_spike,      ///< share of the domain that a spike may take unseen, once in 1,000 times
-  rounding,  ///< what it may do to the integral
+  rounding,          ///< what it may do to the integral
   pairs_with_value,
   explained_by_rounding,
   evaluations,
