@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kNearest = 16;
 constexpr int kMaxSteps = 40, kMaxHalvings = 12;
-constexpr double kSame = 1e-6;  // two solutions this close are one
+// Two solutions this close are one. Many numbers in float lead to one rounded point.
+constexpr double kSame = 1e-6, kSameInFloat = 4e-3;
 
 double squared_distance(const Vec3& a, const Vec3& b) {
   const Vec3 d = sum(a, scaled(b, -1));
@@ -135,11 +136,12 @@ std::optional<Uniforms> BranchSearch::solve(const Vec3& x, Uniforms u) const {
 
 std::vector<Uniforms> BranchSearch::preimages(const Vec3& x, const Uniforms& known) const {
   std::vector<Uniforms> found{known};
+  const double same = epsilon_ > 0x1p-40 ? kSameInFloat : kSame;
   for (const Uniforms& start : starts(x)) {
     const auto u = solve(x, start);
     if (!u) continue;
     const bool seen = std::any_of(found.begin(), found.end(), [&](const Uniforms& other) {
-      return std::abs(other[0] - (*u)[0]) < kSame && std::abs(other[1] - (*u)[1]) < kSame;
+      return std::abs(other[0] - (*u)[0]) < same && std::abs(other[1] - (*u)[1]) < same;
     });
     if (!seen) found.push_back(*u);
   }

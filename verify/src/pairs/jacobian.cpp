@@ -184,12 +184,12 @@ class Jacobian {
     }
     if (!(several > kManyToOne * looked_at)) return;
     CheckResult& r = outcome_.result;
-    of_whole_ = std::move(sums);  // single branches say nothing of the whole
     if (beyond > std::max(kSeamPoints, kSeamShare * looked_at)) {
       r.reason = "the densities of the branches add up to more than the pdf at " + number(beyond) +
                  " of " + number(looked_at) + " points";
       return;
     }
+    of_whole_ = std::move(sums);  // single branches say nothing of the whole
     failing_ = 0;
     worst_ = worst;
     branches_ = true;
