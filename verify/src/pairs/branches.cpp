@@ -64,9 +64,10 @@ std::vector<Uniforms> BranchSearch::starts(const Vec3& x) const {
 
   const auto side = static_cast<std::ptrdiff_t>(per_side_);
   const auto rows = static_cast<std::ptrdiff_t>(grid_.size()) / side;
-  const auto of = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
+  const auto of = [&](std::ptrdiff_t i, std::ptrdiff_t j) -> double {
     const bool inside = i >= 0 && i < side && j >= 0 && j < rows;
-    return inside ? distance[static_cast<std::size_t>(j * side + i)] : kFar;
+    if (!inside) return kFar;
+    return distance[static_cast<std::size_t>(j * side + i)];
   };
   for (std::ptrdiff_t j = 0; j < rows; ++j) {
     for (std::ptrdiff_t i = 0; i < side; ++i) {

@@ -294,9 +294,10 @@ class Integrator {
                           : static_cast<std::size_t>(std::sqrt(static_cast<double>(q_.spread)));
     const std::size_t columns = q_.spread / rows;
     for (std::size_t i = 0; i < columns * rows; ++i) {
+      const std::size_t column = i % columns, row = i / columns;
       const Point2 p{
-          (static_cast<double>(i % columns) + random_.uniform()) / static_cast<double>(columns),
-          (static_cast<double>(i / columns) + random_.uniform()) / static_cast<double>(rows)};
+          (static_cast<double>(column) + random_.uniform()) / static_cast<double>(columns),
+          (static_cast<double>(row) + random_.uniform()) / static_cast<double>(rows)};
       TreeCell* cell = leaf_at(p);
       if (cell == nullptr) continue;
       const double value = value_at(p);

@@ -181,8 +181,6 @@ constexpr NumbersStyle numbers_style() {
     return NumbersStyle::three;
   } else if constexpr (std::is_invocable_v<const Sampler&, const D&, T, T>) {
     return NumbersStyle::two;
-  } else if constexpr (std::is_void_v<N>) {
-    return NumbersStyle::unknown;
   } else if constexpr (SeededGenerator<N>) {
     return std::is_invocable_v<const Sampler&, const D&, N&> ? NumbersStyle::own_generator
                                                              : NumbersStyle::unknown;
