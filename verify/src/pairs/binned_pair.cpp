@@ -248,22 +248,4 @@ Vec3 BinnedPair::center(int depth, std::size_t bin) const {
       {(box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2});
 }
 
-std::vector<Vec3> BinnedPair::nodes(int depth, std::size_t bin) const {
-  if (!tree_) return {center(depth, bin)};
-  constexpr int kPerSide = 4;
-  const int finer = depth_ - depth;
-  const std::size_t pieces = std::size_t{1} << finer, first = bin << finer;
-  std::vector<Vec3> nodes;
-  for (int i = 0; i < kPerSide * kPerSide; ++i) {
-    // Of a coarse bin, finest bins in turn: they hold equal shares of the samples.
-    const std::size_t fine = first + static_cast<std::size_t>(i) * pieces / (kPerSide * kPerSide);
-    const Box& box = tree_->box(fine);
-    const double s = (i % kPerSide + 0.5) / kPerSide, t = (i / kPerSide + 0.5) / kPerSide;
-    nodes.push_back(
-        pair_.domain.chart().from_square({box.low[0] + s * (box.high[0] - box.low[0]),
-                                          box.low[1] + t * (box.high[1] - box.low[1])}));
-  }
-  return nodes;
-}
-
 }  // namespace plumbline::verify

@@ -68,9 +68,6 @@ class BinnedPair {
   /// Middle of a bin of a depth, in the domain.
   Vec3 center(int depth, std::size_t bin) const;
 
-  /// Points of a bin of a depth, evenly over the square: 16, or the one of a discrete set.
-  std::vector<Vec3> nodes(int depth, std::size_t bin) const;
-
   /// Share of the pilot samples that fell into bins so narrow that they lie on a line or in a
   /// point.
   double on_lines() const { return on_lines_; }
