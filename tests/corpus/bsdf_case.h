@@ -16,6 +16,7 @@ using verify::CauseKind;
 /// from below.
 inline BsdfOptions seen_from(std::vector<double> angles, bool back = false) {
   BsdfOptions options;
+  options.contract = gate_effort();
   options.angles = std::move(angles);
   options.random_directions = 0;
   options.back = back;
@@ -45,7 +46,8 @@ void correct(std::vector<Case>& cases, const std::string& name, const B& bsdf,
 template <class Direction, class Numbers = void, class B>
 void twin(std::vector<Case>& cases, const std::string& subject, const std::string& what,
           const std::string& fault, std::vector<CauseKind> causes, const B& bsdf,
-          const BsdfOptions& options) {
+          BsdfOptions options) {
+  spend_less(options.contract);
   correct<Direction, Numbers>(cases, subject + "/" + what, bsdf, options);
   cases.back().fault = fault;
   cases.back().causes = std::move(causes);

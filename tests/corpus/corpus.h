@@ -32,6 +32,18 @@ struct Case {
   std::function<Results(std::uint64_t seed)> run;
 };
 
+/// What the gate can afford of hundreds of batteries: a fourth of the bins, and samples until twice
+/// the deviation is excluded.
+inline verify::ContractOptions gate_effort() {
+  verify::ContractOptions options;
+  options.finest_bins /= 4;
+  options.deviation *= 2;
+  return options;
+}
+
+/// Of a faulty twin, whose integral need not be known as well as a pass asks for.
+inline void spend_less(verify::ContractOptions& options) { options.evaluations /= 4; }
+
 std::vector<Case> bsdf_cases();
 std::vector<Case> pair_cases();  ///< lights, maps, warps, discrete, distances, phase functions
 

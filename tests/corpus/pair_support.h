@@ -185,21 +185,24 @@ inline Pair on_map_domain(Pair pair, int width, int height) {
   return pair;
 }
 
-inline Results check(const Pair& pair, std::uint64_t seed) {
-  verify::ContractOptions options;
-  options.seed = seed;
-  return verify::check_pair(pair, options);
+inline Case checked(std::string name, std::function<Pair()> pair,
+                    const verify::ContractOptions& options) {
+  return {std::move(name), {}, {}, [pair = std::move(pair), options](std::uint64_t seed) {
+            verify::ContractOptions seeded = options;
+            seeded.seed = seed;
+            return verify::check_pair(pair(), seeded);
+          }};
 }
 
 inline Case correct(std::string name, std::function<Pair()> pair) {
-  return {std::move(name), {}, {}, [pair = std::move(pair)](std::uint64_t seed) {
-            return check(pair(), seed);
-          }};
+  return checked(std::move(name), std::move(pair), gate_effort());
 }
 
 inline Case twin(std::string name, std::string fault, std::vector<Kind> causes,
                  std::function<Pair()> pair) {
-  Case c = correct(std::move(name), std::move(pair));
+  verify::ContractOptions options = gate_effort();
+  spend_less(options);
+  Case c = checked(std::move(name), std::move(pair), options);
   c.fault = std::move(fault);
   c.causes = std::move(causes);
   return c;

@@ -130,6 +130,7 @@ struct Totals {
   int correct = 0, alarms = 0, undecided = 0;
   int faults = 0, found = 0, right = 0, wrong = 0, silent = 0;
   double seconds = 0;
+  std::map<std::string_view, double> seconds_of;                 ///< kinds of checks
   std::map<std::pair<std::string, std::string>, int> confusion;  ///< expected, named
 };
 
@@ -213,6 +214,7 @@ int score(const std::vector<Case>& cases, std::uint64_t seed, std::string_view f
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     totals.seconds += seconds;
+    for (const CheckResult& r : results) totals.seconds_of[to_string(r.kind)] += r.seconds;
     (c.fault.empty() ? run_correct : run_twin)(c, results, seconds, totals);
     std::fflush(stdout);
   }
@@ -224,6 +226,9 @@ int score(const std::vector<Case>& cases, std::uint64_t seed, std::string_view f
     std::printf("\nfaults: %d, found %d; cause right %d, wrong %d, none %d\n", totals.faults,
                 totals.found, totals.right, totals.wrong, totals.silent);
     print_confusion(totals);
+  }
+  for (const auto& [kind, seconds] : totals.seconds_of) {
+    std::printf("%8.1f s  %.*s\n", seconds, static_cast<int>(kind.size()), kind.data());
   }
   std::printf("%.1f s, seed %llu\n", totals.seconds, static_cast<unsigned long long>(seed));
   return totals.alarms + totals.undecided + totals.faults - totals.found == 0 ? 0 : 1;

@@ -26,4 +26,11 @@ struct DensityAt {
 std::optional<DensityAt> density_by_differences(const Map& map, const Uniforms& u, int dimension,
                                                 double epsilon, double first_step = 0x1p-4);
 
+/// The same from one side of u in each number, away from a seam on the other. Each derivative is
+/// taken at the step that leaves it the smallest error.
+///
+/// @param sides  +1 or −1, of each number
+std::optional<DensityAt> density_on_one_side(const Map& map, const Uniforms& u, int dimension,
+                                             double epsilon, const std::array<int, 2>& sides);
+
 }  // namespace plumbline::verify

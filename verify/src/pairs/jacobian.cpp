@@ -25,7 +25,7 @@ constexpr double kSeamPoints = 2;
 constexpr double kSeamShare = 0.002;
 // Steps with which a point that fails is looked at again: within a pixel of a map, if not before
 // its edge. Coarse ones may straddle a seam and agree by coincidence.
-constexpr double kShortSteps[] = {0x1p-9, 0x1p-13};
+constexpr double kShortSteps[] = {0x1p-9, 0x1p-13, 0x1p-16};
 // Points at which other branches of the map are looked for, and the share of them that have one in
 // a map that counts as many-to-one.
 constexpr std::size_t kBranchPoints = 200;
@@ -71,7 +71,8 @@ class Jacobian {
       check_mixture();
     }
     const bool one_map = pair_.lobes.empty() && !pair_.preimages;
-    outcome_.below_everywhere = one_map && failing_ > 0 && failing_below_ == failing_;
+    outcome_.below_everywhere =
+        one_map && failing_ > 0 && !more_than_seams(failing_ - failing_below_);
     if (one_map && too_many_fail() && outcome_.below_everywhere) look_for_branches();
     for (RatioSeries* s : {&of_lobes_, &of_whole_}) {
       if (!s->points.empty()) outcome_.ratios.push_back(std::move(*s));
@@ -125,16 +126,29 @@ class Jacobian {
     return std::abs(pdf / density.value - 1) <= tolerance_ + 4 * density.relative_error;
   }
 
-  /// Whether short differences see what long ones have missed.
-  bool agrees_closely(const Map& map, const Uniforms& u, double pdf) const {
-    return std::any_of(std::begin(kShortSteps), std::end(kShortSteps), [&](double step) {
-      const auto d = density_by_differences(map, u, dimension(), pair_.epsilon, step);
-      return d && d->relative_error <= tolerance_ / 4 && agrees(pdf, *d);
-    });
+  /// Whether differences that are shorter, or on one side only, agree where long ones do not: they
+  /// are as close, or they contradict the long ones.
+  bool agrees_closely(const Map& map, const Uniforms& u, double pdf, const DensityAt& far) const {
+    const auto holds = [&](const std::optional<DensityAt>& d) {
+      if (!d || !(d->relative_error <= tolerance_) || !agrees(pdf, *d)) return false;
+      const double apart = std::abs(far.value / d->value - 1);
+      return d->relative_error <= tolerance_ / 4 ||
+             apart > tolerance_ + 4 * (far.relative_error + d->relative_error);
+    };
+    for (const double step : kShortSteps) {
+      if (holds(density_by_differences(map, u, dimension(), pair_.epsilon, step))) return true;
+    }
+    for (const int first : {1, -1}) {
+      for (const int second : {1, -1}) {
+        if (holds(density_on_one_side(map, u, dimension(), pair_.epsilon, {first, second})))
+          return true;
+      }
+    }
+    return false;
   }
 
   void count(const Map& map, const Uniforms& u, const Vec3& x, double pdf, DensityAt density) {
-    if (!agrees(pdf, density) && !pair_.preimages && agrees_closely(map, u, pdf)) {
+    if (!agrees(pdf, density) && !pair_.preimages && agrees_closely(map, u, pdf, density)) {
       ++seams_;
       return;
     }
@@ -221,7 +235,10 @@ class Jacobian {
     }
   }
 
-  bool too_many_fail() const { return failing_ > std::max(kSeamPoints, kSeamShare * usable_); }
+  bool more_than_seams(double points) const {
+    return points > std::max(kSeamPoints, kSeamShare * usable_);
+  }
+  bool too_many_fail() const { return more_than_seams(failing_); }
 
   void finish() {
     CheckResult& r = outcome_.result;

@@ -14,8 +14,9 @@ namespace {
 
 // What a cell's uniform nodes are at least, and as if while cells are made.
 constexpr double kNodesPerCell = 1;
-constexpr int kMaxRounds = 4;
+constexpr int kMaxRounds = 6;
 constexpr double kWorthwhile = 0.9;
+constexpr int kMostWithoutGain = 2;
 // The highest degree of a fit is several times what a smooth function leaves beyond it. What nodes
 // have measured needs no hope.
 constexpr double kHope = 4;
@@ -48,6 +49,7 @@ class Integrator {
   Integrator(const MassQuestion& question, const std::vector<Cell>& cells)
       : q_(question),
         own_(question.own),
+        nodes_(question.spread),
         random_(random_for(question.seed, Stream::nodes)),
         roots_of_bin_(question.bins) {
     std::vector<std::vector<PilotPoint>> of_bin(q_.bins);
@@ -71,16 +73,27 @@ class Integrator {
   MassIntegral run() {
     MassIntegral result;
     double before = std::numeric_limits<double>::infinity();
+    int without_gain = 0;
     for (int round = 0; round < kMaxRounds; ++round) {
-      // What no cells resolve, a lobe along a thin curve, own samples have to average out.
-      if (round > 0) own_ = std::min<std::size_t>(4 * own_, q_.max_evaluations / 4);
+      // What no cells resolve has to be averaged out: a lobe along a thin curve by own samples, a
+      // jump along a curve by nodes in its cells.
+      if (round > 0) {
+        const double of_own = own_variance_ / result.variance_of_total;
+        if (of_own > 0.25) own_ = std::min<std::size_t>(4 * own_, q_.max_evaluations / 4);
+        if (of_own < 0.75) nodes_ = std::min<std::size_t>(4 * nodes_, q_.max_evaluations / 4);
+      }
       // The last rounds may spend what the first have left.
       refine(q_.max_evaluations * static_cast<std::uint64_t>(round + 2) / (kMaxRounds + 1),
              round == 0 ? kHope : 1);
       result = correct();
       const double error = result.error(kPassLevel);
-      // Cells that no longer show what they are off by would cost more rounds than they are worth.
-      const bool worthwhile = error > q_.target && error < kWorthwhile * before;
+      // Cells that no longer show what they are off by would cost more rounds than they are worth,
+      // as would a target that four times the nodes in each round do not reach.
+      const int hopeful_rounds = std::min(2, kMaxRounds - 1 - round);
+      const bool within_reach = std::ldexp(error, -hopeful_rounds) <= q_.target;
+      without_gain = error < kWorthwhile * before ? 0 : without_gain + 1;
+      const bool worthwhile = error > q_.target && without_gain < kMostWithoutGain &&
+                              (within_reach || error > q_.good_enough);
       if (!worthwhile || !result.finite || evaluations_ >= q_.max_evaluations) break;
       before = error;
       learn();
@@ -181,7 +194,7 @@ class Integrator {
   }
 
   void refine(std::uint64_t until, double hope) {
-    const double reserved = static_cast<double>(own_ + 2 * q_.spread);
+    const double reserved = static_cast<double>(own_ + nodes_ + q_.spread);
     const auto spent = [&] { return static_cast<double>(evaluations_) + reserved; };
     while (!queue_.empty() && spent() < static_cast<double>(until)) {
       const auto [key, index] = queue_.top();
@@ -229,6 +242,7 @@ class Integrator {
   /// One round of random nodes on the cells as they are.
   MassIntegral correct() {
     result_ = {};
+    own_variance_ = 0;
     surprises_.clear();
     result_.value.assign(q_.bins, 0.0);
     result_.variance.assign(q_.bins, 0.0);
@@ -239,7 +253,10 @@ class Integrator {
       keys += cell.key;
       ++result_.cells;
     }
-    nodes_to_share_ = static_cast<double>(std::max(q_.spread, result_.cells));
+    const double cells = static_cast<double>(result_.cells);
+    nodes_to_share_ = std::max(static_cast<double>(nodes_) / 2, cells);
+    nodes_everywhere_ =
+        std::max(kNodesPerCell, std::floor(static_cast<double>(nodes_) / 2 / cells));
     keys_ = keys;
     for (TreeCell& cell : cells_) {
       if (cell.halves == 0) add_fit_and_nodes(cell);
@@ -255,10 +272,11 @@ class Integrator {
     return result_;
   }
 
-  /// Uniform nodes of a cell: in proportion to what it adds to the error.
+  /// Uniform nodes of a cell: some in any case, the others in proportion to what it is expected to
+  /// add to the error, which may be more than has been seen.
   double nodes_of(const TreeCell& cell) const {
     const double share = keys_ > 0 ? cell.key / keys_ : 0;
-    return kNodesPerCell + std::floor(nodes_to_share_ * share);
+    return nodes_everywhere_ + std::floor(nodes_to_share_ * share);
   }
 
   void add_term(TreeCell& cell, const Point2& p, double value, double own_density) {
@@ -266,6 +284,8 @@ class Integrator {
         (value - cell.fit.at(p)) * weight(nodes_of(cell) / cell.box.area(), own_density);
     result_.value[cell.bin] += term;
     result_.variance[cell.bin] += term * term;
+    const double others = nodes_of(cell) / cell.box.area() + static_cast<double>(q_.spread);
+    if (static_cast<double>(own_) * own_density > others) own_variance_ += term * term;
     result_.largest_term = std::max(result_.largest_term, std::abs(term));
     cell.measured += term * term;
     if (std::abs(term) > kSurprise * q_.target && surprises_.size() < kMostSurprises) {
@@ -352,14 +372,15 @@ class Integrator {
   }
 
   const MassQuestion& q_;
-  std::size_t own_;
+  std::size_t own_, nodes_;  // in a round: of the pair's own, and shared out among the cells
   Random random_;
   std::vector<PilotPoint> pilot_;
   std::vector<std::pair<std::size_t, PilotPoint>> surprises_;  // with their cells
   std::vector<TreeCell> cells_;
   std::vector<std::vector<std::size_t>> roots_of_bin_;
   std::priority_queue<std::pair<double, std::size_t>> queue_;
-  double sum_of_squares_ = 0, keys_ = 0, nodes_to_share_ = 0;
+  double sum_of_squares_ = 0, keys_ = 0, nodes_to_share_ = 0, nodes_everywhere_ = 0;
+  double own_variance_ = 0;  // of terms where most nodes are own samples
   std::uint64_t evaluations_ = 0;
   bool finite_ = true;
   MassIntegral result_;

@@ -36,7 +36,8 @@ struct MassQuestion {
 
   int dimension = 2;       ///< 1: the integrand depends on the first coordinate alone
   double target = 2.5e-5;  ///< error of the total at 99.9 % after which nothing more is spent
-  std::uint64_t max_evaluations = 3'000'000;
+  double good_enough = 0;  ///< the same, where the target is out of reach
+  std::uint64_t max_evaluations = 4'000'000;
   std::size_t own = 1 << 16;     ///< samples of the pair's own in each round
   std::size_t spread = 1 << 14;  ///< random nodes, evenly over the square, in each round
   std::uint64_t seed = 1;

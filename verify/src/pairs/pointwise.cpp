@@ -8,6 +8,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "pairs/battery.h"
+#include "rounding.h"
 #include "streams.h"
 #include "text.h"
 
@@ -265,9 +266,9 @@ class Pointwise {
   /// Equal up to rounding: of the numbers themselves, or of the point that f is asked at.
   template <class F>
   bool agree(double a, double b, const Vec3& x, const F& f) const {
+    const double allowed = stated_tolerance(pair_.epsilon) * std::max(std::abs(a), std::abs(b));
     const double difference = std::abs(a - b);
-    const double scale = std::max(std::abs(a), std::abs(b));
-    if (difference <= kRounding * pair_.epsilon * scale) return true;
+    if (difference <= allowed) return true;
     if (discrete_ || !std::isfinite(difference)) return false;
     double spread = 0;
     for (int k = 0; k < 4; ++k) {
@@ -275,7 +276,7 @@ class Pointwise {
       spread = std::max(spread,
                         std::abs(f(pair_.domain.chart().near(x, 8 * pair_.epsilon, angle)) - f(x)));
     }
-    return difference <= kRounding * pair_.epsilon * scale + 16 * spread;
+    return difference <= allowed + 16 * spread;
   }
 
   const SamplingPair& pair_;

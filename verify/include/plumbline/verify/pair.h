@@ -172,7 +172,7 @@ struct ContractOptions : CheckSettings {
   /// resolves.
   std::optional<double> mass_tolerance;
 
-  std::uint64_t evaluations = 3'000'000;  ///< of the pdf, at most, to integrate it
+  std::uint64_t evaluations = 4'000'000;  ///< of the pdf, at most, to integrate it
 
   // Chi-square.
   std::uint64_t first_look = 100'000;
