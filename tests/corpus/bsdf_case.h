@@ -16,7 +16,6 @@ using verify::CauseKind;
 /// from below.
 inline BsdfOptions seen_from(std::vector<double> angles, bool back = false) {
   BsdfOptions options;
-  options.contract = gate_effort();
   options.angles = std::move(angles);
   options.random_directions = 0;
   options.back = back;
@@ -29,14 +28,24 @@ inline BsdfOptions from_both_faces(std::vector<double> angles, double eta = 1) {
   return options;
 }
 
+/// @param fault  empty: it is correct
+template <class Direction, class Numbers, class B>
+Case bsdf_case(const std::string& name, const std::string& fault, std::vector<CauseKind> causes,
+               const B& bsdf, const BsdfOptions& options) {
+  const bool is_twin = !fault.empty();
+  return {name, fault, std::move(causes),
+          [name, bsdf, options, is_twin](std::uint64_t seed, Effort effort) {
+            BsdfOptions here = options;
+            here.contract = with_effort(options.contract, effort, is_twin);
+            here.contract.seed = seed;
+            return verify::check_bsdf<Direction, Numbers>(name, bsdf, here);
+          }};
+}
+
 template <class Direction, class Numbers = void, class B>
 void correct(std::vector<Case>& cases, const std::string& name, const B& bsdf,
              const BsdfOptions& options) {
-  cases.push_back({name, "", {}, [name, bsdf, options](std::uint64_t seed) {
-                     BsdfOptions seeded = options;
-                     seeded.contract.seed = seed;
-                     return verify::check_bsdf<Direction, Numbers>(name, bsdf, seeded);
-                   }});
+  cases.push_back(bsdf_case<Direction, Numbers>(name, "", {}, bsdf, options));
 }
 
 /// The same with one fault put in.
@@ -46,11 +55,9 @@ void correct(std::vector<Case>& cases, const std::string& name, const B& bsdf,
 template <class Direction, class Numbers = void, class B>
 void twin(std::vector<Case>& cases, const std::string& subject, const std::string& what,
           const std::string& fault, std::vector<CauseKind> causes, const B& bsdf,
-          BsdfOptions options) {
-  spend_less(options.contract);
-  correct<Direction, Numbers>(cases, subject + "/" + what, bsdf, options);
-  cases.back().fault = fault;
-  cases.back().causes = std::move(causes);
+          const BsdfOptions& options) {
+  cases.push_back(
+      bsdf_case<Direction, Numbers>(subject + "/" + what, fault, std::move(causes), bsdf, options));
 }
 
 }  // namespace plumbline::tests::corpus

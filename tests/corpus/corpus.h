@@ -15,6 +15,13 @@ namespace plumbline::tests::corpus {
 /// What a battery returns.
 using Results = verify::Report;
 
+/// What a battery may spend.
+enum class Effort {
+  user,  ///< as the library's options are by default
+  gate   ///< of hundreds of batteries: a fourth of the bins, samples until twice the deviation is
+         ///< excluded, and of a twin a fourth of the evaluations
+};
+
 /// One subject with its parameters, correct or with one fault put in.
 struct Case {
   /// "rough glass/alpha 0.2/float"; of a twin "rough glass/alpha 0.2/pdf without 1/(4 wo·h)"
@@ -29,20 +36,17 @@ struct Case {
   std::vector<verify::CauseKind> causes;
 
   /// The battery, as a user would call it.
-  std::function<Results(std::uint64_t seed)> run;
+  std::function<Results(std::uint64_t seed, Effort effort)> run;
 };
 
-/// What the gate can afford of hundreds of batteries: a fourth of the bins, and samples until twice
-/// the deviation is excluded.
-inline verify::ContractOptions gate_effort() {
-  verify::ContractOptions options;
+inline verify::ContractOptions with_effort(verify::ContractOptions options, Effort effort,
+                                           bool is_twin) {
+  if (effort == Effort::user) return options;
   options.finest_bins /= 4;
   options.deviation *= 2;
+  if (is_twin) options.evaluations /= 4;
   return options;
 }
-
-/// Of a faulty twin, whose integral need not be known as well as a pass asks for.
-inline void spend_less(verify::ContractOptions& options) { options.evaluations /= 4; }
 
 std::vector<Case> bsdf_cases();
 std::vector<Case> pair_cases();  ///< lights, maps, warps, discrete, distances, phase functions

@@ -28,12 +28,14 @@ std::string test_name(const testing::TestParamInfo<Case>& info) {
 
 class CorrectCode : public testing::TestWithParam<Case> {};
 
-TEST_P(CorrectCode, Passes) { PLUMBLINE_EXPECT_PASS(GetParam().run(check_seed(GetParam().name))); }
+TEST_P(CorrectCode, Passes) {
+  PLUMBLINE_EXPECT_PASS(GetParam().run(check_seed(GetParam().name), Effort::gate));
+}
 
 class FaultyTwin : public testing::TestWithParam<Case> {};
 
 TEST_P(FaultyTwin, IsFound) {
-  const Results results = GetParam().run(check_seed(GetParam().name));
+  const Results results = GetParam().run(check_seed(GetParam().name), Effort::gate);
   EXPECT_TRUE(std::any_of(results.begin(), results.end(), [](const verify::CheckResult& r) {
     return r.verdict == verify::Verdict::fail;
   })) << GetParam().fault;

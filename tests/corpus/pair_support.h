@@ -185,27 +185,19 @@ inline Pair on_map_domain(Pair pair, int width, int height) {
   return pair;
 }
 
-inline Case checked(std::string name, std::function<Pair()> pair,
-                    const verify::ContractOptions& options) {
-  return {std::move(name), {}, {}, [pair = std::move(pair), options](std::uint64_t seed) {
-            verify::ContractOptions seeded = options;
-            seeded.seed = seed;
-            return verify::check_pair(pair(), seeded);
+inline Case twin(std::string name, std::string fault, std::vector<Kind> causes,
+                 std::function<Pair()> pair) {
+  const bool is_twin = !fault.empty();
+  return {std::move(name), std::move(fault), std::move(causes),
+          [pair = std::move(pair), is_twin](std::uint64_t seed, Effort effort) {
+            verify::ContractOptions options = with_effort({}, effort, is_twin);
+            options.seed = seed;
+            return verify::check_pair(pair(), options);
           }};
 }
 
 inline Case correct(std::string name, std::function<Pair()> pair) {
-  return checked(std::move(name), std::move(pair), gate_effort());
-}
-
-inline Case twin(std::string name, std::string fault, std::vector<Kind> causes,
-                 std::function<Pair()> pair) {
-  verify::ContractOptions options = gate_effort();
-  spend_less(options);
-  Case c = checked(std::move(name), std::move(pair), options);
-  c.fault = std::move(fault);
-  c.causes = std::move(causes);
-  return c;
+  return twin(std::move(name), {}, {}, std::move(pair));
 }
 
 }  // namespace plumbline::tests::corpus

@@ -1,4 +1,4 @@
-// corpus_score [--correct | --open | --sealed] [--seed N] [--filter TEXT]
+// corpus_score [--correct | --open | --sealed] [--gate] [--seed N] [--filter TEXT]
 //
 // Runs the corpus and says how the library did: false alarms on correct code, faults found, causes
 // right and wrong.
@@ -205,12 +205,13 @@ void print_confusion(const Totals& totals) {
   }
 }
 
-int score(const std::vector<Case>& cases, std::uint64_t seed, std::string_view filter) {
+int score(const std::vector<Case>& cases, std::uint64_t seed, Effort effort,
+          std::string_view filter) {
   Totals totals;
   for (const Case& c : cases) {
     if (c.name.find(filter) == std::string::npos) continue;
     const auto start = std::chrono::steady_clock::now();
-    const Results results = c.run(seed);
+    const Results results = c.run(seed, effort);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     totals.seconds += seconds;
@@ -241,6 +242,7 @@ int main(int argc, char** argv) {
   using namespace plumbline::tests::corpus;
   std::vector<Half> halves;
   std::uint64_t seed = 1;
+  Effort effort = Effort::user;
   std::string_view filter;
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
@@ -250,14 +252,16 @@ int main(int argc, char** argv) {
       halves.push_back(Half::open);
     } else if (argument == "--sealed") {
       halves.push_back(Half::sealed);
+    } else if (argument == "--gate") {
+      effort = Effort::gate;
     } else if (argument == "--seed" && i + 1 < argc) {
       seed = std::strtoull(argv[++i], nullptr, 10);
     } else if (argument == "--filter" && i + 1 < argc) {
       filter = argv[++i];
     } else {
-      std::fprintf(
-          stderr,
-          "usage: corpus_score [--correct] [--open] [--sealed] [--seed N] [--filter TEXT]\n");
+      std::fprintf(stderr,
+                   "usage: corpus_score [--correct] [--open] [--sealed] [--gate] [--seed N] "
+                   "[--filter TEXT]\n");
       return 2;
     }
   }
@@ -270,5 +274,5 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "corpus_score: this build has no such cases\n");
     return 2;
   }
-  return score(cases, seed, filter);
+  return score(cases, seed, effort, filter);
 }

@@ -15,8 +15,9 @@ constexpr std::size_t kPilotsPerBin = 16;
 constexpr std::size_t kMostDrawn = 1 << 20;
 // Half of the strict promise of the integral check, see kStrictPromise.
 constexpr double kMassError = 2.5e-5;
-// A quarter of the promise that is made where that is out of reach.
-constexpr double kLooseMassError = 2.5e-4;
+// An eighth of the promise that is made where that is out of reach: a rejected share that has to be
+// counted needs the most of it.
+constexpr double kLooseMassError = 1.25e-4;
 // A bin as narrow as that around a sixteenth of its depth's share of the samples is a line.
 constexpr double kLine = 1e-11;
 // A float direction that rounding put outside the support is within a few 2^-24 of it.

@@ -91,7 +91,9 @@ void test_categories(LevelTest& test, Categories& categories, double n) {
       few ? exact_p(categories.large, n) : pearson_tail(with_error, test.degrees, inverse_expected);
   const double p_small = binomial_two_sided(categories.small.observed, n,
                                             std::min(1.0, categories.small.expected / n));
-  test.p_value = categories.impossible ? 0 : std::min(1.0, 2 * std::min(p_large, p_small));
+  // One test or two, as the pair has it.
+  const double tests = categories.small.expected > 0 && count > 0 ? 2 : 1;
+  test.p_value = categories.impossible ? 0 : std::min(1.0, tests * std::min(p_large, p_small));
 }
 
 LevelTest test_level(const BinnedPair& pair, int depth) {
@@ -140,10 +142,11 @@ ChiSquareLook::ChiSquareLook(const ContractOptions& options, const BinnedPair& p
   excess_ = mass.excess();
   excess_error_ = mass.error(fail_level / 2);
   for (const int depth : depths_of(pair.depth())) levels_.push_back(test_level(pair, depth));
-  // The atoms share one more level.
-  level_ = fail_level / 2 / static_cast<double>(levels_.size() + 1);
   const double n = static_cast<double>(pair.counts().drawn);
   const std::vector<AtomCount>& atoms = pair.counts().atoms;
+  // The atoms share one more level, where there are any.
+  tests_ = static_cast<double>(levels_.size()) + (atoms.empty() ? 0 : 1);
+  level_ = fail_level / 2 / tests_;
   for (std::size_t i = 0; i < atoms.size(); ++i) {
     const double p = kMostAtomsTested * binomial_two_sided(static_cast<double>(atoms[i].drawn), n,
                                                            std::min(1.0, atoms[i].atom.mass));
@@ -175,8 +178,7 @@ CheckResult ChiSquareLook::result() const {
   r.tolerance = options_.deviation;
   r.bound = bound_;
   r.detectable = detectable_;
-  r.p_value =
-      std::min(1.0, std::min(worst().p_value, atoms_p_) * static_cast<double>(levels_.size() + 1));
+  r.p_value = std::min(1.0, std::min(worst().p_value, atoms_p_) * tests_);
   r.leaned_on = "bin masses with their sampling error";
   r.figures = {{Figure::integral_of_pdf, pair_.expected().total},
                {Figure::rejected, static_cast<double>(counts.rejected)},

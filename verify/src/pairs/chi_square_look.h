@@ -42,7 +42,7 @@ class ChiSquareLook {
   const BinnedPair& pair_;
   double excess_ = 0, excess_error_ = 0;
   std::vector<LevelTest> levels_;
-  double level_ = 0;  // of one test
+  double tests_ = 0, level_ = 0;  // how many share a level, and that of one
   double atoms_p_ = 1;
   std::size_t worst_atom_ = 0;
   double bound_ = 0, detectable_ = 0;

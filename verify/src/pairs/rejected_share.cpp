@@ -23,7 +23,7 @@ constexpr double kPassLevel = 1e-3;
 constexpr double kLineError = 2.5e-5;
 // None of so many: at most 2.6e-5 with 99.9 %.
 constexpr std::uint64_t kProbes = 1 << 18;
-constexpr std::uint64_t kMostCounted = 1 << 23;
+constexpr std::uint64_t kMostCounted = 1 << 24;
 
 /// The rejected part of lines of constant second number. Borders are bisected between random
 /// places, and what lies unseen between those is added by random points that the borders were not

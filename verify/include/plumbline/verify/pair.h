@@ -188,8 +188,8 @@ struct ContractOptions : CheckSettings {
 /// integral, chi-square. Results are named pair/check; a check that the pair has no ground for is
 /// left out, one that it asks to skip says so (inconclusive, as expected).
 ///
-/// On failure the results carry a diagnosis: the observed/expected ratio is fitted against the
-/// usual suspects and the best is named with how well it fits, or none where none fits.
+/// On failure the report names its cause: the one hypothesis that explains everything in it up to
+/// rounding and sampling error, or none.
 Report check_pair(const SamplingPair& pair, const ContractOptions& options = {});
 
 /// pdf · |∂x/∂u| = 1 by extrapolated differences, lobe by lobe. Points at a fold or seam of the
@@ -205,19 +205,20 @@ CheckResult check_jacobian(const SamplingPair& pair, const ContractOptions& opti
 /// corners of the unit square. What rounding of the point itself may change is allowed for.
 Report check_pointwise(const SamplingPair& pair, const ContractOptions& options = {});
 
-/// ∫pdf + atoms + rejected share = 1, by adaptive cubature seeded from samples, with its error.
+/// ∫pdf + atoms + rejected share = 1: a fit on adaptive cells, corrected at random nodes, with its
+/// sampling error.
 CheckResult check_integral(const SamplingPair& pair, const ContractOptions& options = {});
 
 /// Chi-square test of samples against the integral of their density over bins that follow it.
 ///
 /// The domain is halved at medians of pilot samples until each bin holds about the same mass, and
-/// the density is integrated over each bin by adaptive cubature with an error estimate. Bins are
-/// tested coarse to fine under one level, at growing sample counts. Pooled bins keep what is left
-/// over; a bin where the pdf is 0 fails on its first sample, as does any sample where the pdf is 0;
-/// rejected samples and atoms are categories of their own.
+/// the density is integrated over each bin with its sampling error. Bins are tested coarse to fine
+/// under one level, at growing sample counts. Pooled bins keep what is left over; a bin where the
+/// pdf is 0 fails on its first sample, as does any sample where the pdf is 0; rejected samples and
+/// atoms are categories of their own.
 ///
 /// `fail` at the level of the error budget; `pass` if the deviation is proven below `deviation` and
-/// the masses add up; else `inconclusive`, also where the cubature cannot certify its error.
+/// the masses add up; else `inconclusive`, also where the masses are not known well enough.
 CheckResult check_chi_square(const SamplingPair& pair, const ContractOptions& options = {});
 
 /// The same of a sampler of directions alone, for a user's own vector type.
