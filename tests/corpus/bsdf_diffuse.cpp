@@ -82,8 +82,8 @@ void add_diffuse_cases(std::vector<Case>& cases) {
            "sample uses the exponent with one added once more", {CauseKind::roughness},
            Retroreflector<double>{10, 0.9, 3}, seen_from({20, 60}));
   twin<D3>(cases, "regolith/generator/double", "cosine of wo twice",
-           "f has the cosine of wo where that of wi belongs", {CauseKind::asymmetric},
-           Regolith{0.6, 3}, seen_from({20, 60}));
+           "f has the cosine of wo where that of wi belongs",
+           {CauseKind::asymmetric, CauseKind::value_cosine}, Regolith{0.6, 3}, seen_from({20, 60}));
 }
 
 }  // namespace plumbline::tests::corpus

@@ -106,7 +106,7 @@ std::vector<FaultyCase> factors() {
          with_pdf_times(m, [](auto& o, auto& i) { return 4 * woh(o, i); })),
       of("wo·h in it missing", K::half_vector_jacobian,
          with_pdf_times(m, [](auto& o, auto& i) { return woh(o, i); })),
-      of("cosθh missing", K::half_vector_jacobian,
+      of("cosθh missing", K::cosine,
          with_pdf_times(m, [](auto& o, auto& i) { return 1 / half_vector(o, i)[2]; })),
       of("no G1", K::masking, with_pdf_times(m, [](auto& o, auto&) { return 1 / g1(o, 0.3); })),
       of("G1 of wi", K::masking, with_pdf_times(m, [](auto&, auto& i) { return g1(i, 0.3); })),
@@ -343,6 +343,32 @@ std::vector<FaultyCase> points() {
                           return Vec3{u < 0.3 ? u / 2 : 0.5 + u / 2, v, 0};
                         },
                         [](const Vec3& x) { return x[0] < 0.5 ? 0.6 : 1.4; })));
+  list.push_back(
+      of("sides exchanged", K::constant_per_hemisphere,
+         directions(
+             "",
+             [](double u, double v) {
+               const bool up = u < 0.7;
+               const double r = up ? u / 0.7 : (u - 0.7) / 0.3, s = std::sqrt(r);
+               const double z = std::sqrt(1 - r);
+               return Vec3{s * std::cos(2 * kPi * v), s * std::sin(2 * kPi * v), up ? z : -z};
+             },
+             [](const Vec3& w) { return (w[2] > 0 ? 0.3 : 0.7) * std::abs(w[2]) / kPi; })));
+  list.push_back(of("not folded", K::not_rejected,
+                    sampling_pair<Vec3>(
+                        "", Domain::triangle(),
+                        [](double u, double v) {
+                          return Vec3{u, v, 0};
+                        },
+                        [](const Vec3& x) { return x[0] + x[1] <= 1 ? 2.0 : 0.0; })));
+  list.push_back(
+      of("middles of cells", K::on_a_line,
+         sampling_pair<Vec3>(
+             "", Domain::unit_square(),
+             [](double u, double v) {
+               return Vec3{(std::floor(16 * u) + 0.5) / 16, (std::floor(8 * v) + 0.5) / 8, 0};
+             },
+             [](const Vec3&) { return 1.0; })));
   list.push_back(of("clamped", K::on_a_line,
                     directions(
                         "",

@@ -109,6 +109,27 @@ void add_on_sides(std::vector<Hypothesis>& list, bool bsdf, const Blame& blame, 
     };
     list.push_back(std::move(h));
   }
+  // The shares of the two sides exchanged: a/b on one and b/a on the other. Where a mirrored
+  // density says the same, it says more than is seen: that the sides have the same shape is all
+  // that makes them look exchanged.
+  Hypothesis exchanged;
+  exchanged.kind = CauseKind::constant_per_hemisphere;
+  exchanged.starts = {{0.5}, {-0.5}};
+  exchanged.prediction = [](const Place& p, std::span<const double> n) {
+    return p.base * std::exp(beyond(p) ? -n[0] : n[0]);
+  };
+  exchanged.charge = [error](const Numbers& n) -> std::optional<double> {
+    if (std::abs(n.front()[0]) <= error) return std::nullopt;
+    return 0.5 - kPerNumber;
+  };
+  exchanged.words = [=](std::span<const double> n) {
+    return "the shares of the two sides are exchanged in " + blame.function + ": " +
+           blame.numerator + " is " + number(std::exp(n[0])) + " times as large " +
+           side_name(bsdf, false) + ", and " + number(std::exp(-n[0])) + " times " +
+           side_name(bsdf, true);
+  };
+  list.push_back(std::move(exchanged));
+
   Hypothesis h;
   h.kind = CauseKind::constant_per_hemisphere;
   h.starts = {{0.0, 0.0}};
@@ -167,6 +188,14 @@ void add_by_view(std::vector<Hypothesis>& list, const Blame& blame,
     one.complexity = 2;
     one.prediction = [other](const Place& p, std::span<const double> n) {
       return beyond(p) == other ? p.base * std::exp(n[0]) : p.base;
+    };
+    // Sides that hold nothing, or all but nothing, are no matter of a probability.
+    one.charge = [](const Numbers& n) -> std::optional<double> {
+      constexpr double kMost = 7;
+      for (const auto& of_view : n) {
+        if (std::abs(of_view[0]) > kMost) return std::nullopt;
+      }
+      return 0;
     };
     one.words = [=](std::span<const double> n) {
       return std::string("the probability of ") + (other ? "transmission" : "reflection") +

@@ -6,6 +6,7 @@
 #include "diagnosis/direct.h"
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
+#include "diagnosis/strays.h"
 #include "diagnosis/values.h"
 #include "text.h"
 
@@ -15,8 +16,6 @@ namespace {
 
 /// Another explanation is close where it has as many free numbers.
 constexpr double kClose = 30;
-
-const Prediction kAsStated = [](const Place& p, std::span<const double>) { return p.base; };
 
 std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Blame& blame,
                                        const Observations& observations, bool of_value) {
@@ -52,6 +51,7 @@ class Diagnosis {
     if (!anything_failed()) return {};
     if (const auto f = find_stale_state(evidence_)) return named(*f);
     if (const auto f = find_atoms_with_density(evidence_)) return named(*f);
+    if (const auto f = find_points_not_finite(evidence_)) return named(*f);
     if (const auto f = find_samples_on_a_line(evidence_)) return named(*f);
     Cause cause = of_the_rest();
     if (const auto f = find_not_finite(evidence_)) {
@@ -76,11 +76,11 @@ class Diagnosis {
     if (evidence_.views.empty()) return of_values();
     if (auto cause = of_lobes()) return *cause;
     const Observations density = Observations::of_density(evidence_);
-    if (!density.empty() && !density.judge(kAsStated).admissible) return of_density(density);
+    if (!density.empty() && !density.judge(as_stated).admissible) return of_density(density);
     const Observations record = Observations::of_series(evidence_, RatioKind::record_over_pdf);
-    if (!record.empty() && !record.judge(kAsStated).admissible) return of_record(record);
+    if (!record.empty() && !record.judge(as_stated).admissible) return of_record(record);
     const Observations weight = Observations::of_series(evidence_, RatioKind::weight_over_value);
-    if (!weight.empty() && !weight.judge(kAsStated).admissible) return of_weight(weight);
+    if (!weight.empty() && !weight.judge(as_stated).admissible) return of_weight(weight);
     return of_values();
   }
 
@@ -106,7 +106,7 @@ class Diagnosis {
     for (std::size_t i = 0; i < lobes; ++i) {
       const Observations lobe =
           Observations::of_series(evidence_, RatioKind::lobe_density_over_pdf, static_cast<int>(i));
-      if (lobe.empty() || lobe.judge(kAsStated).admissible) continue;
+      if (lobe.empty() || lobe.judge(as_stated).admissible) continue;
       const Blame blame{"the pdf of " + evidence_.views.front().pair->lobes[i].name,
                         "the density of its samples"};
       std::vector<Hypothesis> all;
@@ -124,7 +124,7 @@ class Diagnosis {
   std::string which_function(const Explanation& e) const {
     const Observations record = Observations::of_series(evidence_, RatioKind::record_over_pdf);
     if (record.empty()) return {};
-    if (record.judge(kAsStated).admissible) return " (the record states the same)";
+    if (record.judge(as_stated).admissible) return " (the record states the same)";
     for (std::size_t v = 0; v < record.views().size(); ++v) {
       const Fit fit = record.judge_view(v, e.hypothesis->prediction, e.numbers[v]);
       if (fit.tested > 0 && !fit.admissible) return {};
@@ -134,41 +134,14 @@ class Diagnosis {
 
   Cause of_density(const Observations& density) {
     const Blame blame{"pdf()", "the density of the samples"};
-    if (auto cause = of_unrejected(density)) return *cause;
+    if (all_rejected(evidence_)) return {};
+    if (auto cause = explain_strays(evidence_, density)) return *cause;
     if (auto cause = of_atoms(density)) return *cause;
     const auto all = all_hypotheses(evidence_, blame, density, false);
     const auto found = explain(density, all);
     if (!found.empty()) return from(found, which_function(found.front()));
     if (auto cause = of_shape(density)) return *cause;
     return {};
-  }
-
-  /// Samples where the pdf is 0, and nothing wrong (or a constant per view) where it is not.
-  std::optional<Cause> of_unrejected(const Observations& density) const {
-    double strays = 0, beyond = 0, share = 0;
-    for (const ViewEvidence& v : evidence_.views) {
-      share = std::max(share, v.stray_share);
-      for (const Vec3& x : v.strays) {
-        ++strays;
-        const bool other = has_wo(v) ? transmits(*v.wo, x) : x[2] < 0;
-        beyond += v.pair->domain.directions() && other ? 1 : 0;
-      }
-    }
-    if (strays == 0) return std::nullopt;
-    const Observations inside = density.without_strays();
-    if (!inside.judge(kAsStated).admissible) return std::nullopt;
-    const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
-    if (beyond > 0.98 * strays) {
-      return Cause{CauseKind::not_rejected,
-                   "samples below the horizon are not rejected: up to " + some +
-                       " lie where pdf() is 0, and the rest are as dense as it says",
-                   {},
-                   CauseKind::none};
-    }
-    return Cause{CauseKind::support,
-                 "the support of pdf() is too small: up to " + some + " lie outside it",
-                 {},
-                 CauseKind::none};
   }
 
   /// The continuous part and the atoms, each with or without the probability that is its own.
@@ -192,7 +165,7 @@ class Diagnosis {
                    {},
                    CauseKind::none};
     }
-    if (density.without_mass().judge(kAsStated).admissible) {
+    if (density.without_mass().judge(as_stated).admissible) {
       return Cause{CauseKind::atom_as_density,
                    "the mass that atoms state is not the share of samples that they get",
                    {},
@@ -220,19 +193,11 @@ class Diagnosis {
     }
     double never = 0;
     for (const ViewEvidence& v : evidence_.views) never = std::max(never, share_never_sampled(v));
-    if (never > 0.02 && excess > kCertain) {
-      const bool chosen = map_jumps(evidence_.views.front());
-      const std::string some = number(std::round(1e3 * never) / 10) + " % of pdf()";
-      if (chosen) {
-        return Cause{CauseKind::numbers_reused,
-                     "no sample falls where " + some +
-                         " is, and more than expected elsewhere: a number that has chosen a part "
-                         "is used again without being stretched to [0, 1)",
-                     {},
-                     CauseKind::none};
-      }
-      return Cause{CauseKind::support,
-                   "no sample falls where " + some + " is: samples cover a part of it only",
+    if (never > 0.02 && excess > kCertain && map_jumps(evidence_.views.front())) {
+      return Cause{CauseKind::numbers_reused,
+                   "no sample falls where " + number(std::round(1e3 * never) / 10) +
+                       " % of pdf() is, and more than expected elsewhere: a number that has chosen "
+                       "a part is used again without being stretched to [0, 1)",
                    {},
                    CauseKind::none};
     }
@@ -298,6 +263,24 @@ class Diagnosis {
     return std::nullopt;
   }
 
+  /// A weight that is f·|cosθ| or f, not over the density, or over it twice.
+  std::optional<Cause> of_undivided(const Observations& weight) const {
+    for (const double power : {1.0, -1.0}) {
+      for (const bool cosine : {false, true}) {
+        const Prediction over = [=](const Place& p, std::span<const double>) {
+          return p.base * std::pow(pdf_at(*p.view, p.x), power) / (cosine ? std::abs(p.x[2]) : 1);
+        };
+        if (!weight.judge(over).admissible) continue;
+        return Cause{CauseKind::weight,
+                     power > 0 ? "the weight is not divided by the pdf"
+                               : "the weight is divided by the pdf twice",
+                     {},
+                     CauseKind::none};
+      }
+    }
+    return std::nullopt;
+  }
+
   Cause of_weight(const Observations& weight) {
     const Blame blame{"f·|cosθ|", "weight · pdf()"};
     if (auto cause = of_chosen_lobe(weight)) return *cause;
@@ -322,8 +305,15 @@ class Diagnosis {
     cause.kind = of_value(cause.kind);
     cause.second_kind = of_value(cause.second_kind);
     if (cause.kind != CauseKind::none) return cause;
+    // Only then: the density of a diffuse lobe is cosθ/π, and 1/π missing in f looks the same.
+    if (const auto undivided = of_undivided(weight)) return *undivided;
     if (asymmetric || energy_fails(evidence_)) return of_values();
-    return {};
+    // Densities and the record are right, and f is what it should be from both sides.
+    return {CauseKind::weight,
+            "the weight is wrong: it is not f·|cosθ|/pdf(), though samples are as dense as pdf() "
+            "says",
+            {},
+            CauseKind::none};
   }
 
   Cause of_values() const {

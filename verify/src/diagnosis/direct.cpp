@@ -104,6 +104,7 @@ struct Crowd {
   double largest = 0;    ///< share of the most frequent value
   double different = 0;  ///< share of values that occur once
   double value = 0;
+  double range = 0;
   std::size_t distinct = 0;
 };
 
@@ -111,6 +112,7 @@ Crowd crowd_of(std::vector<double> values) {
   Crowd crowd;
   if (values.empty()) return crowd;
   std::sort(values.begin(), values.end());
+  crowd.range = values.back() - values.front();
   const double n = static_cast<double>(values.size());
   std::size_t once = 0;
   for (std::size_t i = 0; i < values.size();) {
@@ -129,6 +131,33 @@ Crowd crowd_of(std::vector<double> values) {
 }
 
 constexpr double kCrowd = 0.005;
+constexpr double kClose = 0x1p-12;
+constexpr double kBeside = 1e-5;
+
+/// Samples around the point where most of them lie have cosines to it that are 1 − k 2⁻²⁴ for whole
+/// numbers k: their cosine was a float before it became a direction.
+bool steps_of_rounding(const ViewEvidence& view) {
+  constexpr int kSamples = 8192;
+  constexpr double kStep = 0x1p-24, kWhole = 0.1, kMostSteps = 4096;
+  if (!view.pair->domain.directions()) return false;
+  std::map<Vec3, int> counts;
+  const auto samples = draw_samples(view, kSamples);
+  for (const SampleRecord& s : samples) ++counts[s.x];
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  double tested = 0, whole = 0;
+  for (const SampleRecord& s : samples) {
+    const Vec3 d = sum(s.x, scaled(most->first, -1));
+    const double steps = dot(d, d) / 2 / kStep;
+    // Rounding of the direction itself moves it by about √(2 steps) of these per 2⁻²⁴.
+    if (!(steps > 0.25) || steps > kMostSteps) continue;
+    ++tested;
+    whole += std::abs(steps - std::round(steps)) < kWhole ? 1 : 0;
+  }
+  // By chance a fifth would be.
+  return tested > 100 && whole > 0.6 * tested;
+}
 
 }  // namespace
 
@@ -147,11 +176,15 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
         for (std::size_t i = 0; i < 3; ++i) coordinates[i].push_back(s.x[i] + 0.0);
       } else {
         // Surfaces lie in planes, which is no fault: the chart's coordinates vary.
+        // Beside the domain the chart clamps, not the sampler.
+        if (v->pair->domain.chart().distance(s.x) > kBeside) continue;
         const Point2 p = v->pair->domain.chart().to_square(s.x);
         for (std::size_t i = 0; i < 2; ++i) coordinates[i].push_back(p[i]);
       }
     }
-    int crowded = 0, varying = 0;
+    const bool in_float = v->pair->epsilon > 0x1p-40;
+    int crowded = 0, varying = 0, few = 0;
+    std::size_t points = 0;
     std::string where;
     double share = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -161,19 +194,37 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
       // A coordinate that never changes is the chart's: a line has one only.
       if (c.distinct <= 1 && !v->pair->domain.directions()) continue;
       ++varying;
-      if (v->pair->epsilon > 0x1p-40 && c.distinct > 4 && c.different < 0.2 &&
-          static_cast<double>(c.distinct) < count / 8) {
-        return Finding{CauseKind::precision,
-                       "samples take few different values (" + number(std::uint64_t(c.distinct)) +
-                           " of " + names[i] + " in " + number(count) +
-                           " samples): what is sampled is narrower than the arithmetic resolves"};
+      if (c.distinct > 4 && c.different < 0.2 && static_cast<double>(c.distinct) < count / 8) {
+        // Values as close as that are neighbours in float; wide apart, they are put there.
+        const bool close = c.range / static_cast<double>(c.distinct) < kClose;
+        if (in_float && close) {
+          return Finding{CauseKind::precision,
+                         "samples take few different values (" + number(std::uint64_t(c.distinct)) +
+                             " of " + names[i] + " in " + number(count) +
+                             " samples): what is sampled is narrower than the arithmetic resolves"};
+        }
+        ++few;
+        points = std::max(points, c.distinct);
       }
+      // Within 3e-4 of an axis the cosine is 1 in float: that is its rounding.
+      if (v->pair->domain.directions() && in_float && std::abs(c.value) == 1) continue;
       if (c.largest < kCrowd || c.different < 0.05 * (1 - c.largest)) continue;
       ++crowded;
       share = std::max(share, c.largest);
       where += (where.empty() ? "" : ", ") + std::string(names[i]) + " = " + number(c.value);
     }
+    if (few > 0 && few == varying) {
+      return Finding{CauseKind::on_a_line,
+                     "samples lie in single points, with " + number(std::uint64_t(points)) +
+                         " different coordinates in " + number(std::uint64_t(kSamples)) +
+                         " samples: the place within a cell is not drawn"};
+    }
     if (crowded == 0) continue;
+    if (crowded >= varying && in_float && steps_of_rounding(*v)) {
+      return Finding{CauseKind::precision,
+                     "the cosines of samples to the middle of the lobe are the few next to 1 that "
+                     "float has: compute 1 − cosθ"};
+    }
     const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
     if (crowded >= varying || (v->pair->domain.dimension() == 1)) {
       return Finding{CauseKind::on_a_line, some + " lie in one point, " + where +
@@ -237,6 +288,25 @@ std::optional<Finding> find_not_finite(const ReportEvidence& evidence) {
       if (s && s->weight.count > 0 && !std::isfinite(s->weight[0])) {
         return Finding{CauseKind::not_finite, "a weight is " + number(s->weight[0])};
       }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Finding> find_points_not_finite(const ReportEvidence& evidence) {
+  constexpr int kSamples = 512;
+  constexpr double kMany = 0.05;
+  for (const ViewEvidence& v : evidence.views) {
+    if (!v.failed) continue;
+    Random random(kSeed, kStream);
+    double bad = 0;
+    for (int i = 0; i < kSamples; ++i) {
+      const auto s = v.pair->next(random);
+      bad += s && !is_finite(s->x) ? 1 : 0;
+    }
+    if (bad > kMany * kSamples) {
+      return Finding{CauseKind::not_finite, number(std::round(100 * bad / kSamples)) +
+                                                " % of the sampled points are not finite"};
     }
   }
   return std::nullopt;

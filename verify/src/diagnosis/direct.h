@@ -27,6 +27,9 @@ std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence);
 /// NaN, infinity or a negative density.
 std::optional<Finding> find_not_finite(const ReportEvidence& evidence);
 
+/// Sampled points that are NaN or infinite in so many samples that nothing else can be said.
+std::optional<Finding> find_points_not_finite(const ReportEvidence& evidence);
+
 /// What the numerator of a ratio depends on, judged by samples that lie next to each other.
 enum class Dependence {
   on_the_point,     ///< neighbours agree

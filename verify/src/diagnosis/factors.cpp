@@ -63,8 +63,15 @@ void add_of_half_vectors(std::vector<Factor>& list) {
                   [woh](const Place& p) { return 4 * woh(p); }, 1, "",
                   "the half-vector Jacobian 1/(4 wo·h) is missing from"});
   list.push_back({"(wo·h)", CauseKind::half_vector_jacobian, woh, 1.2});
-  list.push_back({"cosθh", CauseKind::half_vector_jacobian,
-                  [h](const Place& p) { return std::abs(h(p)[2]); }, 1.1});
+  // Of a density of normals, D cosθh: a cosine, though it is lost together with the Jacobian.
+  list.push_back(
+      {"cosθh", CauseKind::cosine, [h](const Place& p) { return std::abs(h(p)[2]); }, 1.1});
+  list.push_back({"sinθh", CauseKind::sine,
+                  [h](const Place& p) {
+                    const Vec3 m = h(p);
+                    return std::hypot(m[0], m[1]);
+                  },
+                  1.3});
 }
 
 /// The true Jacobian of a refraction over what may stand in its place.
@@ -135,8 +142,13 @@ void add_of_points(std::vector<Factor>& list, const Domain& domain) {
   const double extent = extent_of(domain);
   const std::string size = line ? "length" : "area";
   if (std::abs(extent - 1) > 1e-6) {
-    list.push_back({size, CauseKind::distance_or_area, [extent](const Place&) { return extent; },
-                    -120, "", "1/" + size + " is missing from", true});
+    // A constant in the end; what is twice there was multiplied by instead of divided.
+    list.push_back({size, CauseKind::constant, [extent](const Place&) { return extent; }, -1, "",
+                    "1/" + size + " is missing from", true});
+    list.push_back({size + "²", CauseKind::distance_or_area,
+                    [extent](const Place&) { return extent * extent; }, 1,
+                    "the " + size + " is divided by where it should be multiplied by, in",
+                    "the " + size + " is multiplied by where it should be divided by, in", true});
   }
   const auto along = [&list](const char* name, std::size_t i, bool from_end, double power,
                              double rank) {
@@ -288,6 +300,7 @@ std::vector<Hypothesis> factor_hypotheses(const ReportEvidence& evidence, const 
   std::vector<Hypothesis> list;
   for (const Factor& f : factors) {
     for (const double power : kPowers) {
+      if (f.alone && std::abs(power) != 1) continue;
       list.push_back(hypothesis_of({{f, power}}, false, blame, error));
       if (!f.alone) list.push_back(hypothesis_of({{f, power}}, true, blame, error));
     }

@@ -163,8 +163,8 @@ std::vector<LobeFactor> lobe_factors() {
   return {
       {"1/(4 wo·h)", CauseKind::half_vector_jacobian,
        [woh](const Place& p) { return 1 / (4 * woh(p)); }},
-      {"cosθh", CauseKind::half_vector_jacobian, wh},
-      {"1/cosθh", CauseKind::half_vector_jacobian, [wh](const Place& p) { return 1 / wh(p); }},
+      {"cosθh", CauseKind::cosine, wh},
+      {"1/cosθh", CauseKind::cosine, [wh](const Place& p) { return 1 / wh(p); }},
       {"wo·h", CauseKind::half_vector_jacobian, woh},
       {"1/(wo·h)", CauseKind::half_vector_jacobian, [woh](const Place& p) { return 1 / woh(p); }},
       {"1/4", CauseKind::half_vector_jacobian, [](const Place&) { return 0.25; }},

@@ -14,6 +14,9 @@ namespace plumbline::verify {
 /// weight · pdf()), given its free numbers.
 using Prediction = std::function<double(const Place&, std::span<const double>)>;
 
+/// That what is stated is right.
+inline double as_stated(const Place& p, std::span<const double>) { return p.base; }
+
 /// A ratio that is known up to rounding or differences.
 struct ExactPoint {
   Place place;

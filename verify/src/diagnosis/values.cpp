@@ -122,7 +122,9 @@ std::vector<Finding> explain_asymmetry(const ReportEvidence& evidence) {
     return wo[2] > 0 ? eta * eta : 1 / (eta * eta);
   };
   std::vector<Fixed> fixed = {
-      {CauseKind::value_cosine, "f holds cosθi once too often: the cosine is applied twice",
+      {CauseKind::value_cosine,
+       "f holds cosθi once too often: the cosine is applied twice, or is that of the wrong "
+       "direction",
        cosine},
       {CauseKind::value_cosine,
        "f is divided by cosθi once too often, or by cosθi instead of cosθo",
@@ -217,13 +219,15 @@ std::vector<Finding> explain_energy(const ReportEvidence& evidence) {
                          " times what the known albedo asks for, from every direction"});
     return found;
   }
-  // Without: the same albedo from everywhere, above 1 and π or 2 times a plausible one.
+  // Without: the same albedo from everywhere, and so far above 1 that 2 or π is missing rather than
+  // a few percent too many.
+  constexpr double kFactor = 1.5;
   double least = 1e300, most = 0;
   for (const AlbedoAt& a : evidence.albedos) {
     least = std::min(least, a.albedo);
     most = std::max(most, a.albedo);
   }
-  if (!known && most > 1 && most - least < 5e-3 * most) {
+  if (!known && most > kFactor && most - least < 5e-3 * most) {
     found.push_back({CauseKind::value_constant,
                      "the albedo is " + number(most) +
                          " from every direction: 1/π or another constant is missing from f"});
