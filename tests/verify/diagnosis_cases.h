@@ -1,5 +1,9 @@
 #pragma once
 
+#include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
+
+#include <cstdio>
 #include <deque>
 #include <functional>
 #include <string>
@@ -63,6 +67,21 @@ inline Cause cause_of(const SamplingPair& pair, std::uint64_t seed) {
   ContractOptions options;
   options.seed = seed;
   return diagnose({{judge_pair(pair, options).view}, {}, {}});
+}
+
+inline FaultyCase of(std::string name, CauseKind right, SamplingPair pair) {
+  return {std::move(name), right, [pair](std::uint64_t seed) { return cause_of(pair, seed); }};
+}
+
+inline void expect_named(const std::vector<FaultyCase>& cases) {
+  for (const FaultyCase& c : cases) {
+    const Cause cause = c.run(tests::check_seed(c.name));
+    std::printf("%-40s %-22s %s%s%s\n", c.name.c_str(), std::string(to_string(cause.kind)).c_str(),
+                cause.headline.c_str(),
+                cause.second.empty() ? "" : " | or: ", cause.second.c_str());
+    std::fflush(stdout);
+    EXPECT_EQ(to_string(cause.kind), to_string(c.right)) << c.name << ": " << cause.headline;
+  }
 }
 
 }  // namespace plumbline::verify

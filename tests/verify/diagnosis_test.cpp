@@ -69,10 +69,6 @@ FaultyCase of(std::string name, CauseKind right, ErasedBsdf b,
           }};
 }
 
-FaultyCase of(std::string name, CauseKind right, SamplingPair pair) {
-  return {std::move(name), right, [pair](std::uint64_t seed) { return cause_of(pair, seed); }};
-}
-
 double woh(const Vec3& wo, const Vec3& wi) { return dot_of(wo, half_vector(wo, wi)); }
 double g1(const Vec3& w, double a) { return RoughMirror{a}.masking(w); }
 
@@ -240,166 +236,10 @@ std::vector<FaultyCase> values() {
              both(mirror(), [](auto&, auto& i) { return 1 / g1(i, 0.3); }), o)};
 }
 
-SamplingPair directions(std::string name, std::function<Vec3(double, double)> sample,
-                        std::function<double(const Vec3&)> pdf) {
-  return sampling_pair<Vec3>(std::move(name), Domain::sphere(), std::move(sample), std::move(pdf));
-}
-
-std::vector<FaultyCase> points() {
-  using K = CauseKind;
-  std::vector<FaultyCase> list;
-  const auto sphere = [](double u, double v) {
-    const double z = 1 - 2 * u, r = std::sqrt(1 - z * z);
-    return Vec3{r * std::cos(2 * kPi * v), r * std::sin(2 * kPi * v), z};
-  };
-  list.push_back(of("uniform sphere as 1/(2π)", K::constant,
-                    directions("", sphere, [](const Vec3&) { return 1 / (2 * kPi); })));
-  list.push_back(of("map without sinθ", K::sine,
-                    directions(
-                        "",
-                        [](double u, double v) {
-                          const double t = kPi * u;
-                          return Vec3{std::sin(t) * std::cos(2 * kPi * v),
-                                      std::sin(t) * std::sin(2 * kPi * v), std::cos(t)};
-                        },
-                        [](const Vec3&) { return 1 / (2 * kPi * kPi); })));
-  list.push_back(of("disk without the root", K::radius,
-                    sampling_pair<Vec3>(
-                        "", Domain::disk(),
-                        [](double u, double v) {
-                          return Vec3{u * std::cos(2 * kPi * v), u * std::sin(2 * kPi * v), 0};
-                        },
-                        [](const Vec3&) { return 1 / kPi; })));
-  list.push_back(of("triangle without the root", K::radius,
-                    sampling_pair<Vec3>(
-                        "", Domain::triangle(),
-                        [](double u, double v) {
-                          return Vec3{u * (1 - v), u * v, 0};
-                        },
-                        [](const Vec3&) { return 2.0; })));
-  const auto hg = [](double c, double g) {
-    return (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * c, 1.5));
-  };
-  list.push_back(of("g with the other sign", K::mirrored,
-                    directions(
-                        "",
-                        [](double u, double v) {
-                          const double g = 0.6, q = (1 - g * g) / (1 - g + 2 * g * u);
-                          const double c = (1 + g * g - q * q) / (2 * g);
-                          const double s = std::sqrt(std::max(0.0, 1 - c * c));
-                          return Vec3{s * std::cos(2 * kPi * v), s * std::sin(2 * kPi * v), c};
-                        },
-                        [hg](const Vec3& w) { return hg(w[2], -0.6); })));
-  // A table of 16 columns, looked up one column on.
-  const auto table = [](double x) { return x < 1 ? 0.5 + std::floor(16 * x) / 15 : 1.5; };
-  list.push_back(of("table read a cell on", K::shifted,
-                    sampling_pair<Vec3>(
-                        "", Domain::interval(),
-                        [table](double u) {
-                          double left = u * 16;
-                          for (int i = 0; i < 16; ++i) {
-                            const double p = table((i + 0.5) / 16);
-                            if (left < p) return Vec3{(i + left / p) / 16, 0, 0};
-                            left -= p;
-                          }
-                          return Vec3{1 - 1e-12, 0, 0};
-                        },
-                        [table](const Vec3& x) {
-                          const double y = x[0] + 1.0 / 16;
-                          return table(y - std::floor(y));
-                        })));
-  list.push_back(of("area of a light", K::distance_or_area,
-                    sampling_pair<Vec3>(
-                        "",
-                        Domain::surface(
-                            [](const Point2& p) {
-                              return Vec3{8 * p[0], 3, 5 * p[1]};
-                            },
-                            [](const Vec3& x) {
-                              return Point2{x[0] / 8, x[2] / 5};
-                            },
-                            [](const Point2&) { return 40.0; }),
-                        [](double u, double v) {
-                          return Vec3{8 * u, 3, 5 * v};
-                        },
-                        [](const Vec3&) { return 40.0; })));
-  // A square of side 2 in the plane z = 1, over the origin: area for solid angle.
-  list.push_back(of("area for solid angle", K::distance_or_area,
-                    directions(
-                        "",
-                        [](double u, double v) {
-                          return unit(Vec3{2 * u - 1, 2 * v - 1, 1});
-                        },
-                        [](const Vec3& w) {
-                          const bool hits =
-                              w[2] > 0 && std::abs(w[0]) <= w[2] && std::abs(w[1]) <= w[2];
-                          return hits ? 0.25 : 0.0;
-                        })));
-  // Two lights in a row: which one, and where on it, by the same number.
-  list.push_back(of("number reused", K::numbers_reused,
-                    sampling_pair<Vec3>(
-                        "", Domain::unit_square(),
-                        [](double u, double v) {
-                          return Vec3{u < 0.3 ? u / 2 : 0.5 + u / 2, v, 0};
-                        },
-                        [](const Vec3& x) { return x[0] < 0.5 ? 0.6 : 1.4; })));
-  list.push_back(
-      of("sides exchanged", K::constant_per_hemisphere,
-         directions(
-             "",
-             [](double u, double v) {
-               const bool up = u < 0.7;
-               const double r = up ? u / 0.7 : (u - 0.7) / 0.3, s = std::sqrt(r);
-               const double z = std::sqrt(1 - r);
-               return Vec3{s * std::cos(2 * kPi * v), s * std::sin(2 * kPi * v), up ? z : -z};
-             },
-             [](const Vec3& w) { return (w[2] > 0 ? 0.3 : 0.7) * std::abs(w[2]) / kPi; })));
-  list.push_back(of("not folded", K::not_rejected,
-                    sampling_pair<Vec3>(
-                        "", Domain::triangle(),
-                        [](double u, double v) {
-                          return Vec3{u, v, 0};
-                        },
-                        [](const Vec3& x) { return x[0] + x[1] <= 1 ? 2.0 : 0.0; })));
-  list.push_back(
-      of("middles of cells", K::on_a_line,
-         sampling_pair<Vec3>(
-             "", Domain::unit_square(),
-             [](double u, double v) {
-               return Vec3{(std::floor(16 * u) + 0.5) / 16, (std::floor(8 * v) + 0.5) / 8, 0};
-             },
-             [](const Vec3&) { return 1.0; })));
-  list.push_back(of("clamped", K::on_a_line,
-                    directions(
-                        "",
-                        [sphere](double u, double v) {
-                          Vec3 w = sphere(u, v);
-                          if (w[2] > 0.9) {
-                            const double r = std::sqrt(1 - 0.81) / std::hypot(w[0], w[1]);
-                            w = {w[0] * r, w[1] * r, 0.9};
-                          }
-                          return w;
-                        },
-                        [](const Vec3&) { return 1 / (4 * kPi); })));
-  return list;
-}
-
-void expect_named(const std::vector<FaultyCase>& cases) {
-  for (const FaultyCase& c : cases) {
-    const Cause cause = c.run(tests::check_seed(c.name));
-    std::printf("%-40s %-22s %s%s%s\n", c.name.c_str(), std::string(to_string(cause.kind)).c_str(),
-                cause.headline.c_str(),
-                cause.second.empty() ? "" : " | or: ", cause.second.c_str());
-    std::fflush(stdout);
-    EXPECT_EQ(to_string(cause.kind), to_string(c.right)) << c.name << ": " << cause.headline;
-  }
-}
-
 TEST(Diagnosis, NamesFactorsOfDensities) { expect_named(factors()); }
 TEST(Diagnosis, NamesFaultsOfMixtures) { expect_named(mixtures()); }
 TEST(Diagnosis, NamesArgumentsThatAreMistaken) { expect_named(arguments()); }
 TEST(Diagnosis, NamesFaultsOfValues) { expect_named(values()); }
-TEST(Diagnosis, NamesFaultsOfWarpsMapsAndLights) { expect_named(points()); }
 
 }  // namespace
 }  // namespace plumbline::verify
