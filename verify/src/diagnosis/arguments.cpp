@@ -107,8 +107,31 @@ void add_turned(std::vector<Hypothesis>& list, const Blame& blame, const Asked& 
            number(n[0] * 180 / std::numbers::pi) + "° against each other";
   };
   list.push_back(h);
+  // Of each view its own: a frame that depends on wo. Frames that agree from some directions, and
+  // are half a turn off from others, are a sign that is mistaken there.
   h.per_view = true;
+  h.charge = [](const std::vector<std::vector<double>>& angles) -> std::optional<double> {
+    const bool any = std::any_of(angles.begin(), angles.end(), [](const auto& n) {
+      return std::abs(std::remainder(n[0], std::numbers::pi)) > 1e-3;
+    });
+    return any ? std::optional(0.0) : std::nullopt;
+  };
   list.push_back(std::move(h));
+}
+
+/// Signs that are mistaken from behind only: code that brings wo to the front and back.
+void add_mirrored_behind(std::vector<Hypothesis>& list, const Blame& blame, const Asked& ask) {
+  for (int bits = 1; bits < 8; ++bits) {
+    const Vec3 signs = {bits & 1 ? -1.0 : 1.0, bits & 2 ? -1.0 : 1.0, bits & 4 ? -1.0 : 1.0};
+    list.push_back(at_another_point(
+        CauseKind::mirrored, 3, ask,
+        [signs](const Place& p) {
+          if (!(p.wo[2] < 0)) return p.x;
+          return Vec3{signs[0] * p.x[0], signs[1] * p.x[1], signs[2] * p.x[2]};
+        },
+        "seen from behind, directions are mirrored between sample and " + blame.function + ": " +
+            blame.numerator + " at (x, y, z) is that of " + signed_axes({0, 1, 2}, signs)));
+  }
 }
 
 /// A density that moves with the square: per area of the domain, where the chart stretches.
@@ -335,6 +358,7 @@ std::vector<Hypothesis> argument_hypotheses(const ReportEvidence& evidence, cons
     add_mirrored_directions(list, blame, ask);
     if (bsdf) {
       add_turned(list, blame, ask);
+      add_mirrored_behind(list, blame, ask);
     } else {
       add_shifted_directions(list, blame, ask);
     }

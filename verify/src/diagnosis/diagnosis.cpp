@@ -183,7 +183,9 @@ class Diagnosis {
       }
     }
     constexpr double kCertain = 7;
-    if (samples_break_a_symmetry(evidence_) && excess < kCertain) {
+    // A number that chooses and is used again, wrongly, breaks symmetries just so.
+    if (excess < kCertain && samples_break_a_symmetry(evidence_) &&
+        std::none_of(evidence_.views.begin(), evidence_.views.end(), choice_is_used_again)) {
       return Cause{CauseKind::tangent_frame,
                    "samples lie unevenly to the left and right of the plane of incidence, where "
                    "pdf() is the same, and are nowhere denser than it says: they are drawn in "

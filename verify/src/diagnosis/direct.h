@@ -50,4 +50,7 @@ double share_never_sampled(const ViewEvidence& view);
 /// The map from numbers to samples jumps: something is chosen by one of the numbers.
 bool map_jumps(const ViewEvidence& view);
 
+/// The number that the map jumps in moves the sample between the jumps as well.
+bool choice_is_used_again(const ViewEvidence& view);
+
 }  // namespace plumbline::verify
