@@ -213,11 +213,12 @@ double share_never_sampled(const ViewEvidence& view) {
     for (std::size_t j = 0; j < second; ++j) {
       double mass = 0;
       for (int k = 0; k < kSteps * kSteps; ++k) {
+        const int column = k % kSteps, row = k / kSteps;
         const Point2 p = {
-            (static_cast<double>(i) + (k % kSteps + 0.5) / kSteps) / kCells,
-            (static_cast<double>(j) + (k / kSteps + 0.5) / kSteps) / static_cast<double>(second)};
+            (static_cast<double>(i) + (column + 0.5) / kSteps) / kCells,
+            (static_cast<double>(j) + (row + 0.5) / kSteps) / static_cast<double>(second)};
         mass += pdf_at(view, chart.from_square(p)) * chart.element(p) /
-                (kSteps * kSteps * kCells * static_cast<double>(second));
+                (double{kSteps} * kSteps * kCells * static_cast<double>(second));
       }
       total += mass;
       if (mass * kSamples > kMany && seen[i * kCells + j] == 0) never += mass;
