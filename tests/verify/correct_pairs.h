@@ -6,9 +6,10 @@
 #include <optional>
 
 #include <plumbline/verify/bsdf.h>
+#include <plumbline/verify/pair.h>
 
-/// Correct BSDFs from the textbook, in double, written for the tests of the checks: wrong ones are
-/// made of them. They know nothing of the renderer's.
+/// Correct BSDFs from the textbook, and a light, in double, written for the tests of the checks:
+/// wrong ones are made of them. They know nothing of the renderer's.
 namespace plumbline::verify {
 
 inline double dot_of(const Vec3& a, const Vec3& b) {
@@ -142,6 +143,26 @@ inline ErasedBsdf transmitted(const ErasedBsdf& b) {
     return record;
   };
   return e;
+}
+
+inline constexpr double kLightArea = 40;
+
+/// A rectangle of 8 m by 5 m, by area.
+inline SamplingPair rectangle() {
+  return sampling_pair<Vec3>(
+      "rectangle",
+      Domain::surface(
+          [](const Point2& p) {
+            return Vec3{8 * p[0], 3, 5 * p[1]};
+          },
+          [](const Vec3& x) {
+            return Point2{x[0] / 8, x[2] / 5};
+          },
+          [](const Point2&) { return kLightArea; }),
+      [](double u, double v) {
+        return Vec3{8 * u, 3, 5 * v};
+      },
+      [](const Vec3&) { return 1 / kLightArea; });
 }
 
 }  // namespace plumbline::verify

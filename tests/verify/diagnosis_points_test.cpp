@@ -79,21 +79,9 @@ std::vector<FaultyCase> points() {
                           const double y = x[0] + 1.0 / 16;
                           return table(y - std::floor(y));
                         })));
-  list.push_back(of("area of a light", K::distance_or_area,
-                    sampling_pair<Vec3>(
-                        "",
-                        Domain::surface(
-                            [](const Point2& p) {
-                              return Vec3{8 * p[0], 3, 5 * p[1]};
-                            },
-                            [](const Vec3& x) {
-                              return Point2{x[0] / 8, x[2] / 5};
-                            },
-                            [](const Point2&) { return 40.0; }),
-                        [](double u, double v) {
-                          return Vec3{8 * u, 3, 5 * v};
-                        },
-                        [](const Vec3&) { return 40.0; })));
+  SamplingPair light = rectangle();
+  light.pdf = [](const Vec3&) { return kLightArea; };
+  list.push_back(of("area of a light", K::distance_or_area, light));
   // A square of side 2 in the plane z = 1, over the origin: area for solid angle.
   list.push_back(of("area for solid angle", K::distance_or_area,
                     directions(

@@ -93,26 +93,6 @@ SamplingPair environment_map() {
       [](const Vec3& w) { return (1 + kTilt * w[2]) / (4 * std::numbers::pi); });
 }
 
-constexpr double kLightArea = 40;
-
-/// A rectangle of 8 m by 5 m, by area.
-SamplingPair rectangle() {
-  return sampling_pair<Vec3>(
-      "L2",
-      Domain::surface(
-          [](const Point2& p) {
-            return Vec3{8 * p[0], 3, 5 * p[1]};
-          },
-          [](const Vec3& x) {
-            return Point2{x[0] / 8, x[2] / 5};
-          },
-          [](const Point2&) { return kLightArea; }),
-      [](double u, double v) {
-        return Vec3{8 * u, 3, 5 * v};
-      },
-      [](const Vec3&) { return 1 / kLightArea; });
-}
-
 void without_half_vector_jacobian(ErasedBsdf& b) {
   const auto pdf = b.pdf;
   b.pdf = [pdf](const Vec3& wo, const Vec3& wi) {

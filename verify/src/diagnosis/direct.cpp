@@ -159,6 +159,25 @@ bool steps_of_rounding(const ViewEvidence& view) {
   return tested > 100 && whole > 0.6 * tested;
 }
 
+/// Coordinates of samples, atoms apart, in which each that is drawn at random varies.
+std::array<std::vector<double>, 3> coordinates_of_samples(const ViewEvidence& view, int count) {
+  const Domain& domain = view.pair->domain;
+  std::array<std::vector<double>, 3> coordinates;
+  for (const SampleRecord& s : draw_samples(view, count)) {
+    if (s.mass > 0) continue;
+    if (domain.directions()) {
+      for (std::size_t i = 0; i < 3; ++i) coordinates[i].push_back(s.x[i] + 0.0);
+      continue;
+    }
+    // Surfaces lie in planes, which is no fault: the chart's coordinates vary. Beside the domain
+    // the chart clamps, not the sampler.
+    if (domain.chart().distance(s.x) > kBeside) continue;
+    const Point2 p = domain.chart().to_square(s.x);
+    for (std::size_t i = 0; i < 2; ++i) coordinates[i].push_back(p[i]);
+  }
+  return coordinates;
+}
+
 }  // namespace
 
 std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
@@ -169,19 +188,7 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
         v->pair->domain.directions()
             ? std::array<const char*, 3>{"x", "y", "z"}
             : std::array<const char*, 3>{"first coordinate", "second coordinate", ""};
-    std::array<std::vector<double>, 3> coordinates;
-    for (const SampleRecord& s : draw_samples(*v, kSamples)) {
-      if (s.mass > 0) continue;
-      if (v->pair->domain.directions()) {
-        for (std::size_t i = 0; i < 3; ++i) coordinates[i].push_back(s.x[i] + 0.0);
-      } else {
-        // Surfaces lie in planes, which is no fault: the chart's coordinates vary.
-        // Beside the domain the chart clamps, not the sampler.
-        if (v->pair->domain.chart().distance(s.x) > kBeside) continue;
-        const Point2 p = v->pair->domain.chart().to_square(s.x);
-        for (std::size_t i = 0; i < 2; ++i) coordinates[i].push_back(p[i]);
-      }
-    }
+    std::array<std::vector<double>, 3> coordinates = coordinates_of_samples(*v, kSamples);
     const bool in_float = v->pair->epsilon > 0x1p-40;
     int crowded = 0, varying = 0, few = 0;
     std::size_t points = 0;

@@ -29,7 +29,7 @@ bool agrees_within(const Observations& observations, const Prediction& predictio
 /// Samples beside the domain itself, and those in it thinner by just their share: what fell
 /// outside should have been folded back, or drawn again.
 std::optional<Cause> of_overshoot(const ReportEvidence& evidence, const Observations& inside,
-                                  double strays) {
+                                  double strays, double share) {
   double outside = 0;
   for (const ViewEvidence& v : evidence.views) {
     if (v.pair->domain.dimension() == 0 || v.pair->domain.directions()) return std::nullopt;
@@ -39,8 +39,7 @@ std::optional<Cause> of_overshoot(const ReportEvidence& evidence, const Observat
   const Prediction thinner = [](const Place& p, std::span<const double>) {
     return p.base * (1 - p.view->stray_share);
   };
-  std::string some;
-  for (const ViewEvidence& v : evidence.views) some = number(std::round(100 * v.stray_share));
+  const std::string some = number(std::round(100 * share));
   if (agrees_within(inside, thinner)) {
     return Cause{CauseKind::not_rejected,
                  some +
@@ -74,7 +73,7 @@ std::optional<Cause> explain_strays(const ReportEvidence& evidence, const Observ
   }
   if (strays == 0) return std::nullopt;
   const Observations inside = density.without_strays();
-  if (!inside.judge(as_stated).admissible) return of_overshoot(evidence, inside, strays);
+  if (!inside.judge(as_stated).admissible) return of_overshoot(evidence, inside, strays, share);
   const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
   if (beyond > 0.98 * strays) {
     return Cause{CauseKind::not_rejected,

@@ -89,35 +89,35 @@ std::optional<Derivative> derivative(const Map& map, const Uniforms& u, std::siz
 }
 
 /// Differences between u and points on one side of it at h, h/2 and h/4, extrapolated twice.
-std::optional<Derivative> one_sided_at(const Map& map, const Uniforms& u, std::size_t d,
-                                       double unit, double h) {
-  const auto here = map(u);
+std::optional<Derivative> one_sided_at(const Map& map, const Uniforms& u, const Vec3& here,
+                                       std::size_t d, double unit, double h) {
   std::array<Vec3, 3> slope;
   for (std::size_t i = 0; i < slope.size(); ++i, h /= 2) {
     Uniforms beside = u;
     beside[d] += h;
     if (!(beside[d] > 0 && beside[d] < 1)) return std::nullopt;
     const auto there = map(beside);
-    if (!here || !there || there->mass > 0) return std::nullopt;
-    slope[i] = combine(1 / h, there->x, -1 / h, here->x);
+    if (!there || there->mass > 0) return std::nullopt;
+    slope[i] = combine(1 / h, there->x, -1 / h, here);
   }
   const Vec3 coarse = combine(2, slope[1], -1, slope[0]), fine = combine(2, slope[2], -1, slope[1]);
   const Vec3 value = combine(4.0 / 3, fine, -1.0 / 3, coarse);
-  // The shortest difference enters eight thirds times.
+  // The shortest difference enters eight thirds times; h is half its step by now.
   const double rounding = 8.0 / 3 * 2 * unit / std::abs(2 * h);
   return Derivative{value, norm(combine(1, value, -1, fine)) + rounding};
 }
 
-std::optional<Derivative> one_sided(const Map& map, const Uniforms& u, std::size_t d, double unit,
-                                    int side) {
+std::optional<Derivative> one_sided(const Map& map, const Uniforms& u, const Vec3& here,
+                                    std::size_t d, double unit, int side) {
   std::optional<Derivative> best;
   for (const double step : {0x1p-9, 0x1p-11, 0x1p-13, 0x1p-15}) {
-    const auto next = one_sided_at(map, u, d, unit, side * step);
+    const auto next = one_sided_at(map, u, here, d, unit, side * step);
     if (next && (!best || next->error < best->error)) best = next;
   }
   return best;
 }
 
+/// @param dv  of a map of one number: none
 std::optional<DensityAt> density_from(const Derivative& du, const std::optional<Derivative>& dv) {
   const Vec3& a = du.value;
   double area = norm(a), error = du.error;
@@ -132,17 +132,29 @@ std::optional<DensityAt> density_from(const Derivative& du, const std::optional<
 
 }  // namespace
 
-std::optional<DensityAt> density_on_one_side(const Map& map, const Uniforms& u, int dimension,
-                                             double epsilon, const std::array<int, 2>& sides) {
+std::vector<DensityAt> densities_on_one_side(const Map& map, const Uniforms& u, int dimension,
+                                             double epsilon) {
+  std::vector<DensityAt> densities;
   const auto sample = map(u);
-  if (!sample || sample->mass > 0) return std::nullopt;
+  if (!sample || sample->mass > 0) return densities;
   const double unit = epsilon * largest_coordinate(sample->x);
-  const auto du = one_sided(map, u, 0, unit, sides[0]);
-  if (!du) return std::nullopt;
-  if (dimension == 1) return density_from(*du, std::nullopt);
-  const auto dv = one_sided(map, u, 1, unit, sides[1]);
-  if (!dv) return std::nullopt;
-  return density_from(*du, dv);
+  const auto sides_of = [&](std::size_t d) {
+    return std::array{one_sided(map, u, sample->x, d, unit, 1),
+                      one_sided(map, u, sample->x, d, unit, -1)};
+  };
+  const auto add = [&](const Derivative& du, const std::optional<Derivative>& dv) {
+    if (const auto density = density_from(du, dv)) densities.push_back(*density);
+  };
+  const auto first = sides_of(0);
+  const auto second = dimension == 2 ? sides_of(1) : decltype(first){};
+  for (const auto& du : first) {
+    if (!du) continue;
+    if (dimension == 1) add(*du, std::nullopt);
+    for (const auto& dv : second) {
+      if (dv) add(*du, dv);
+    }
+  }
+  return densities;
 }
 
 std::optional<DensityAt> density_by_differences(const Map& map, const Uniforms& u, int dimension,

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include <plumbline/verify/pair.h>
 
@@ -26,11 +27,9 @@ struct DensityAt {
 std::optional<DensityAt> density_by_differences(const Map& map, const Uniforms& u, int dimension,
                                                 double epsilon, double first_step = 0x1p-4);
 
-/// The same from one side of u in each number, away from a seam on the other. Each derivative is
-/// taken at the step that leaves it the smallest error.
-///
-/// @param sides  +1 or −1, of each number
-std::optional<DensityAt> density_on_one_side(const Map& map, const Uniforms& u, int dimension,
-                                             double epsilon, const std::array<int, 2>& sides);
+/// The same from one side of u in each number, away from a seam on the other: of every choice of
+/// sides that gives one. Each derivative is taken at the step that leaves it the smallest error.
+std::vector<DensityAt> densities_on_one_side(const Map& map, const Uniforms& u, int dimension,
+                                             double epsilon);
 
 }  // namespace plumbline::verify

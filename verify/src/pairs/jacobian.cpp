@@ -129,22 +129,18 @@ class Jacobian {
   /// Whether differences that are shorter, or on one side only, agree where long ones do not: they
   /// are as close, or they contradict the long ones.
   bool agrees_closely(const Map& map, const Uniforms& u, double pdf, const DensityAt& far) const {
-    const auto holds = [&](const std::optional<DensityAt>& d) {
-      if (!d || !(d->relative_error <= tolerance_) || !agrees(pdf, *d)) return false;
-      const double apart = std::abs(far.value / d->value - 1);
-      return d->relative_error <= tolerance_ / 4 ||
-             apart > tolerance_ + 4 * (far.relative_error + d->relative_error);
+    const auto holds = [&](const DensityAt& d) {
+      if (!(d.relative_error <= tolerance_) || !agrees(pdf, d)) return false;
+      const double apart = std::abs(far.value / d.value - 1);
+      return d.relative_error <= tolerance_ / 4 ||
+             apart > tolerance_ + 4 * (far.relative_error + d.relative_error);
     };
     for (const double step : kShortSteps) {
-      if (holds(density_by_differences(map, u, dimension(), pair_.epsilon, step))) return true;
+      const auto d = density_by_differences(map, u, dimension(), pair_.epsilon, step);
+      if (d && holds(*d)) return true;
     }
-    for (const int first : {1, -1}) {
-      for (const int second : {1, -1}) {
-        if (holds(density_on_one_side(map, u, dimension(), pair_.epsilon, {first, second})))
-          return true;
-      }
-    }
-    return false;
+    const auto sides = densities_on_one_side(map, u, dimension(), pair_.epsilon);
+    return std::any_of(sides.begin(), sides.end(), holds);
   }
 
   void count(const Map& map, const Uniforms& u, const Vec3& x, double pdf, DensityAt density) {

@@ -280,11 +280,11 @@ class Integrator {
   }
 
   void add_term(TreeCell& cell, const Point2& p, double value, double own_density) {
-    const double term =
-        (value - cell.fit.at(p)) * weight(nodes_of(cell) / cell.box.area(), own_density);
+    const double of_cell = nodes_of(cell) / cell.box.area();
+    const double term = (value - cell.fit.at(p)) * weight(of_cell, own_density);
     result_.value[cell.bin] += term;
     result_.variance[cell.bin] += term * term;
-    const double others = nodes_of(cell) / cell.box.area() + static_cast<double>(q_.spread);
+    const double others = of_cell + static_cast<double>(q_.spread);
     if (static_cast<double>(own_) * own_density > others) own_variance_ += term * term;
     result_.largest_term = std::max(result_.largest_term, std::abs(term));
     cell.measured += term * term;

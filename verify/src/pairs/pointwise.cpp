@@ -266,17 +266,15 @@ class Pointwise {
   /// Equal up to rounding: of the numbers themselves, or of the point that f is asked at.
   template <class F>
   bool agree(double a, double b, const Vec3& x, const F& f) const {
-    const double allowed = stated_tolerance(pair_.epsilon) * std::max(std::abs(a), std::abs(b));
-    const double difference = std::abs(a - b);
-    if (difference <= allowed) return true;
-    if (discrete_ || !std::isfinite(difference)) return false;
-    double spread = 0;
-    for (int k = 0; k < 4; ++k) {
-      const double angle = k * std::numbers::pi / 2;
-      spread = std::max(spread,
-                        std::abs(f(pair_.domain.chart().near(x, 8 * pair_.epsilon, angle)) - f(x)));
-    }
-    return difference <= allowed + 16 * spread;
+    return equal_up_to_rounding(a, b, pair_.epsilon, [&] {
+      double spread = 0;
+      for (int k = 0; k < 4 && !discrete_; ++k) {
+        const double angle = k * std::numbers::pi / 2;
+        const Vec3 beside = pair_.domain.chart().near(x, 8 * pair_.epsilon, angle);
+        spread = std::max(spread, std::abs(f(beside) - f(x)));
+      }
+      return 16 * spread;
+    });
   }
 
   const SamplingPair& pair_;
