@@ -119,7 +119,7 @@ void add_roughness(std::vector<Hypothesis>& list, const Blame& blame) {
       {"Beckmann", 0.4, [](const Place& p, double a) { return beckmann_d(half_of(p), a); }}};
   for (const Form& f : forms) {
     const auto add = [&](double complexity, Starts starts,
-                         std::function<std::pair<double, double>(std::span<const double>)> two) {
+                         const std::function<std::pair<double, double>(std::span<const double>)>& two) {
       Hypothesis h;
       h.kind = CauseKind::roughness;
       h.complexity = complexity;
