@@ -18,8 +18,9 @@ using Results = verify::Report;
 /// What a battery may spend.
 enum class Effort {
   user,  ///< as the library's options are by default
-  gate   ///< of hundreds of batteries: a fourth of the bins, samples until twice the deviation is
-         ///< excluded, and of a twin a fourth of the evaluations
+  gate   ///< of hundreds of batteries: of correct code a sixteenth of the bins, and samples until
+         ///< four times the deviation is excluded; of a twin, which has to be found, a fourth of
+         ///< the bins and of the evaluations, and half that deviation
 };
 
 /// One subject with its parameters, correct or with one fault put in.
@@ -42,8 +43,9 @@ struct Case {
 inline verify::ContractOptions with_effort(verify::ContractOptions options, Effort effort,
                                            bool is_twin) {
   if (effort == Effort::user) return options;
-  options.finest_bins /= 4;
-  options.deviation *= 2;
+  options.finest_bins /= is_twin ? 4 : 16;
+  options.first_look /= 4;
+  options.deviation *= is_twin ? 2 : 4;
   if (is_twin) options.evaluations /= 4;
   return options;
 }

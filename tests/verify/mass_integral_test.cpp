@@ -15,6 +15,12 @@
 namespace plumbline::verify {
 namespace {
 
+ContractOptions seeded(const std::string& name) {
+  ContractOptions options;
+  options.seed = tests::check_seed(name);
+  return options;
+}
+
 constexpr double kPi = std::numbers::pi;
 // So many tests of one binary may miss the truth; of each less than once in 1e10.
 constexpr double kLevel = 1e-10;
@@ -242,7 +248,7 @@ TEST(RejectedShare, KeepsItsErrorForATongueThinnerThanTheStepsOfTheLines) {
   });
   // The tongue is a triangle; its last 1e-4 lies in the band.
   const double tongue = width * (1 - base) / 2 - width * 1e-4 * (1 - 1e-4 / (1 - base) / 2);
-  const RejectedShare share = measure_rejected(pair, tests::check_seed("tongue"));
+  const RejectedShare share = measure_rejected(pair, seeded("tongue"));
   EXPECT_LE(std::abs(share.value - (1e-4 + tongue)), share.error(kLevel));
   EXPECT_LE(share.error(1e-3), 5e-4);
 }
@@ -250,8 +256,7 @@ TEST(RejectedShare, KeepsItsErrorForATongueThinnerThanTheStepsOfTheLines) {
 TEST(RejectedShare, IsKnownForBandsCornersAndNothing) {
   const auto expect = [](const char* name, double truth, double known_to,
                          std::function<bool(double, double)> rejects) {
-    const RejectedShare share =
-        measure_rejected(rejecting(std::move(rejects)), tests::check_seed(name));
+    const RejectedShare share = measure_rejected(rejecting(std::move(rejects)), seeded(name));
     EXPECT_LE(std::abs(share.value - truth), share.error(kLevel) + 1e-12) << name;
     EXPECT_LE(share.error(1e-3), known_to) << name;
   };
@@ -269,7 +274,7 @@ TEST(RejectedShare, OfThreeNumbersAndOfAGeneratorReachesThePromise) {
     if (u[2] < 0.4 && u[0] + u[1] > 1.5) return std::nullopt;
     return SampleRecord{{0, 0, 1}};
   };
-  const RejectedShare share = measure_rejected(three, tests::check_seed("three numbers"));
+  const RejectedShare share = measure_rejected(three, seeded("three numbers"));
   EXPECT_LE(std::abs(share.value - 0.4 * 0.125), share.error(kLevel));
   EXPECT_LE(share.error(1e-3), 5e-4);
   SamplingPair generator;
@@ -277,7 +282,7 @@ TEST(RejectedShare, OfThreeNumbersAndOfAGeneratorReachesThePromise) {
     if (random.uniform() < 0.125) return std::nullopt;
     return SampleRecord{{0, 0, 1}};
   };
-  const RejectedShare drawn = measure_rejected(generator, tests::check_seed("generator"));
+  const RejectedShare drawn = measure_rejected(generator, seeded("generator"));
   EXPECT_LE(std::abs(drawn.value - 0.125), drawn.error(kLevel));
   EXPECT_LE(drawn.error(1e-3), 1e-3);
 }

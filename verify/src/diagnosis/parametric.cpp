@@ -118,23 +118,24 @@ void add_roughness(std::vector<Hypothesis>& list, const Blame& blame) {
        }},
       {"Beckmann", 0.4, [](const Place& p, double a) { return beckmann_d(half_of(p), a); }}};
   for (const Form& f : forms) {
-    const auto add = [&](double complexity, Starts starts,
-                         const std::function<std::pair<double, double>(std::span<const double>)>& two) {
-      Hypothesis h;
-      h.kind = CauseKind::roughness;
-      h.complexity = complexity;
-      h.starts = std::move(starts);
-      h.prediction = [d = f.d, two](const Place& p, std::span<const double> n) {
-        const auto [right, wrong] = two(n);
-        return p.base * d(p, std::exp(right)) / d(p, std::exp(wrong));
-      };
-      h.words = [two, name = std::string(f.name), blame](std::span<const double> n) {
-        const auto [right, wrong] = two(n);
-        return "the roughness in " + blame.function + " is another: " + alpha(wrong) + " there, " +
-               alpha(right) + " elsewhere (" + name + ")";
-      };
-      list.push_back(std::move(h));
-    };
+    const auto add =
+        [&](double complexity, Starts starts,
+            const std::function<std::pair<double, double>(std::span<const double>)>& two) {
+          Hypothesis h;
+          h.kind = CauseKind::roughness;
+          h.complexity = complexity;
+          h.starts = std::move(starts);
+          h.prediction = [d = f.d, two](const Place& p, std::span<const double> n) {
+            const auto [right, wrong] = two(n);
+            return p.base * d(p, std::exp(right)) / d(p, std::exp(wrong));
+          };
+          h.words = [two, name = std::string(f.name), blame](std::span<const double> n) {
+            const auto [right, wrong] = two(n);
+            return "the roughness in " + blame.function + " is another: " + alpha(wrong) +
+                   " there, " + alpha(right) + " elsewhere (" + name + ")";
+          };
+          list.push_back(std::move(h));
+        };
     const Starts one = {{-0.1}, {-0.3}, {-0.7}, {-1.2}, {-2.0}, {-3.0}};
     add(f.rank, one, [](std::span<const double> n) { return std::pair{n[0], 2 * n[0]}; });
     add(f.rank, one, [](std::span<const double> n) { return std::pair{2 * n[0], n[0]}; });

@@ -84,7 +84,7 @@ PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options)
 
   Stopwatch watch;
   BinnedPair binned(pair, options);
-  const RejectedShare rejected = measure_rejected(pair, options.seed);
+  const RejectedShare rejected = measure_rejected(pair, options);
   const double integration = watch.lap();
   CheckResult chi_square = run_chi_square(options, binned, rejected);
   chi_square.seconds = watch.lap();

@@ -11,13 +11,15 @@ namespace plumbline::verify {
 namespace {
 
 // Pilot samples in a bin, on average: few, since a bin need not hold just what its neighbours do.
-constexpr std::size_t kPilotsPerBin = 16;
+constexpr std::size_t kPilotsPerBin = 16, kLeastPilots = 1 << 14;
 constexpr std::size_t kMostDrawn = 1 << 20;
 // Half of the strict promise of the integral check, see kStrictPromise.
 constexpr double kMassError = 2.5e-5;
-// An eighth of the promise that is made where that is out of reach: a rejected share that has to be
-// counted needs the most of it.
-constexpr double kLooseMassError = 1.25e-4;
+// Of the deviation that a chi-square pass excludes: as much as the former at its default.
+constexpr double kMassErrorPerDeviation = 2e-3;
+// What is good enough where that is out of reach, at most a quarter of the promise that is made
+// then: a rejected share that has to be counted needs the most of it.
+constexpr double kLooseMassErrors = 5, kLooseMassError = 2.5e-4;
 // A bin as narrow as that around a sixteenth of its depth's share of the samples is a line.
 constexpr double kLine = 1e-11;
 // A float direction that rounding put outside the support is within a few 2^-24 of it.
@@ -80,7 +82,7 @@ MassIntegral integrate_over(const BinTree& tree, const SamplingPair& pair,
   question.bins = tree.bins();
   question.dimension = pair.domain.dimension();
   question.target = error;
-  question.good_enough = kLooseMassError;
+  question.good_enough = std::min(kLooseMassErrors * mass_error(options), kLooseMassError);
   question.max_evaluations = options.evaluations;
   question.own = own;
   question.seed = options.seed;
@@ -88,6 +90,10 @@ MassIntegral integrate_over(const BinTree& tree, const SamplingPair& pair,
 }
 
 }  // namespace
+
+double mass_error(const ContractOptions& options) {
+  return kMassErrorPerDeviation * options.deviation;
+}
 
 BinnedPair::BinnedPair(const SamplingPair& pair, const ContractOptions& options)
     : pair_(pair),
@@ -120,7 +126,7 @@ void BinnedPair::tabulate_discrete() {
 
 void BinnedPair::integrate_density(const ContractOptions& options) {
   Random random = random_for(options.seed, Stream::pilot);
-  const std::size_t own = draws_for(pair_, kPilotsPerBin << depth_, random);
+  const std::size_t own = draws_for(pair_, std::max(kPilotsPerBin << depth_, kLeastPilots), random);
   std::vector<Point2> pilot = draw_own(pair_, own, random);
   tree_.emplace(pilot, depth_, pair_.domain.dimension());
   measure_lines(pilot);

@@ -21,6 +21,10 @@ MassIntegral integrate_over_domain(const SamplingPair& pair,
                                    const std::function<double(const Vec3&)>& function,
                                    const ContractOptions& options, double error);
 
+/// Error at 99.9 % to which masses have to be measured: what the chi-square test resolves, whatever
+/// `mass_tolerance` allows.
+double mass_error(const ContractOptions& options);
+
 struct AtomCount {
   Atom atom;
   std::uint64_t drawn = 0;

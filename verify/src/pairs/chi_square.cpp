@@ -264,7 +264,7 @@ CheckResult check_chi_square(const SamplingPair& pair, const ContractOptions& op
   }
   const Stopwatch watch;
   BinnedPair binned(pair, options);
-  CheckResult result = run_chi_square(options, binned, measure_rejected(pair, options.seed));
+  CheckResult result = run_chi_square(options, binned, measure_rejected(pair, options));
   result.seconds = watch.seconds();
   return result;
 }

@@ -93,7 +93,7 @@ CheckResult check_integral(const SamplingPair& pair, const ContractOptions& opti
   const Stopwatch watch;
   BinnedPair binned(pair, options);
   binned.draw(kProbes);
-  CheckResult result = judge_integral(options, binned, measure_rejected(pair, options.seed));
+  CheckResult result = judge_integral(options, binned, measure_rejected(pair, options));
   result.seconds = watch.seconds();
   return result;
 }

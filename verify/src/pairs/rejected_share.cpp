@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bernstein.h"
+#include "pairs/binned_pair.h"
 #include "pairs/mass_integral.h"
 #include "streams.h"
 
@@ -16,23 +17,31 @@ namespace {
 
 using Sampler = std::function<std::optional<SampleRecord>(const Uniforms&)>;
 
-// What counting has to reach at 99.9 %: less than half of the promise of 1e-3.
-constexpr double kCountedError = 4e-4;
 constexpr double kPassLevel = 1e-3;
-// What lines have to reach to be worth their evaluations: less than half of the strict promise.
-constexpr double kLineError = 2.5e-5;
-// None of so many: at most 2.6e-5 with 99.9 %.
-constexpr std::uint64_t kProbes = 1 << 18;
 constexpr std::uint64_t kMostCounted = 1 << 24;
+
+/// What the share has to be known to at 99.9 %, and how many probes show it where none is rejected.
+struct Precision {
+  double lines;    // to be worth their evaluations: as well as the mass of the density
+  double counted;  // less than half of the promise that is made where samples alone show it
+  std::uint64_t probes;
+
+  explicit Precision(const ContractOptions& options)
+      : lines(mass_error(options)),
+        counted(0.4 * std::max(1e-3, options.mass_tolerance.value_or(0))),
+        probes(static_cast<std::uint64_t>(std::ceil(-std::log(kPassLevel) / lines))) {}
+};
 
 /// The rejected part of lines of constant second number. Borders are bisected between random
 /// places, and what lies unseen between those is added by random points that the borders were not
 /// made from.
 class RejectedLines {
  public:
-  RejectedLines(const Sampler& sample, int numbers, double epsilon, std::uint64_t seed)
+  RejectedLines(const Sampler& sample, int numbers, double epsilon, double error,
+                std::uint64_t seed)
       : sample_(sample),
         numbers_(numbers),
+        error_(error),
         last_(1 - epsilon),
         epsilon_(epsilon),
         random_(random_for(seed, Stream::rejected)) {}
@@ -43,7 +52,7 @@ class RejectedLines {
     question.dimension = 1;
     question.own = 0;
     question.spread = numbers_ == 1 ? 16 : 512;
-    question.target = 5e-6;
+    question.target = error_ / 2;
     question.max_evaluations = 6'000;
     question.seed = random_.bits();
     std::vector<Cell> strips;
@@ -107,6 +116,7 @@ class RejectedLines {
 
   const Sampler& sample_;
   int numbers_;
+  double error_;
   double last_, epsilon_;
   Random random_;
   double points_ = 0;
@@ -114,10 +124,10 @@ class RejectedLines {
 
 /// Share among random numbers of one after the other.
 template <class Rejects>
-RejectedShare count(const Rejects& rejects, std::uint64_t at_least, std::uint64_t at_most) {
+RejectedShare count(const Rejects& rejects, std::uint64_t at_most, const Precision& precision) {
   RejectedShare share;
   double rejected = 0;
-  for (std::uint64_t n = at_least;; n *= 2) {
+  for (std::uint64_t n = precision.probes;; n = std::min(2 * n, at_most)) {
     while (share.points < static_cast<double>(n)) {
       rejected += rejects() ? 1 : 0;
       share.points += 1;
@@ -125,7 +135,7 @@ RejectedShare count(const Rejects& rejects, std::uint64_t at_least, std::uint64_
     share.value = rejected / share.points;
     share.variance = share.value * (1 - share.value) / share.points;
     share.largest_term = 1 / share.points;
-    if (share.error(kPassLevel) <= kCountedError || 2 * n > at_most) return share;
+    if (share.error(kPassLevel) <= precision.counted || n >= at_most) return share;
   }
 }
 
@@ -155,7 +165,8 @@ RejectedShare on_grid(const Sampler& sample, int numbers, int per_side, double e
   return {sum / cells, squares / (cells * cells), 0.5 / cells, 2 * cells};
 }
 
-RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon, std::uint64_t seed) {
+RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon,
+                         const Precision& precision, std::uint64_t seed) {
   Random random = random_for(seed, Stream::probes);
   const auto rejects = [&] {
     Uniforms u{};
@@ -164,22 +175,28 @@ RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon, std
     }
     return !sample(u);
   };
-  const RejectedShare probed = count(rejects, kProbes, kProbes);
+  const RejectedShare probed = count(rejects, precision.probes, precision);
   if (probed.value == 0) return probed;
-  if (numbers == 1) return RejectedLines(sample, numbers, epsilon, seed).measure();
-  if (numbers == 2) {
-    const RejectedShare lines = RejectedLines(sample, numbers, epsilon, seed).measure();
-    if (lines.error(kPassLevel) <= kLineError) return lines;
-    // Borders that no lines follow, many thin strips: points do as well, and cost less.
-    const RejectedShare grid = on_grid(sample, numbers, 768, epsilon, random);
-    return grid.error(kPassLevel) < lines.error(kPassLevel) ? grid : lines;
+  RejectedShare best = {0.5, 0.25, 1, 1};
+  if (numbers < 3) {
+    best = RejectedLines(sample, numbers, epsilon, precision.lines, seed).measure();
+    if (numbers == 1 || best.error(kPassLevel) <= precision.lines) return best;
   }
-  RejectedShare share;
-  for (const int per_side : {48, 64, 96}) {
-    share = on_grid(sample, numbers, per_side, epsilon, random);
-    if (share.error(kPassLevel) <= kCountedError) break;
+  // Borders that no lines follow, many thin strips: points do as well, and cost less.
+  // A border of dimension d − 1 crosses a share of the cells in proportion to 1/side, which makes
+  // the error side^-(d + 1)/2.
+  int side = numbers == 2 ? 128 : 24;
+  const int most = numbers == 2 ? 768 : 96;
+  const double power = 2.0 / (numbers + 1);
+  while (!(best.error(kPassLevel) <= precision.counted)) {
+    const RejectedShare grid = on_grid(sample, numbers, side, epsilon, random);
+    const double error = grid.error(kPassLevel);
+    if (error < best.error(kPassLevel)) best = grid;
+    if (side == most) break;
+    const double enough = 1.1 * side * std::pow(error / precision.counted, power);
+    side = static_cast<int>(std::min<double>(most, std::ceil(std::max(enough, 1.2 * side))));
   }
-  return share;
+  return best;
 }
 
 }  // namespace
@@ -194,7 +211,9 @@ RejectedShare RejectedShare::scaled(double factor) const {
   return {factor * value, factor * factor * variance, factor * largest_term, points / factor};
 }
 
-RejectedShare measure_rejected(const SamplingPair& pair, std::uint64_t seed) {
+RejectedShare measure_rejected(const SamplingPair& pair, const ContractOptions& options) {
+  const Precision precision(options);
+  const std::uint64_t seed = options.seed;
   if (!pair.lobes.empty()) {
     // A lobe's own square shows what is narrow in the share of the whole square that it has.
     RejectedShare sum;
@@ -202,8 +221,8 @@ RejectedShare measure_rejected(const SamplingPair& pair, std::uint64_t seed) {
       if (!(lobe.probability > 0)) continue;
       Random random = random_for(seed, Stream::probes);
       const RejectedShare share =
-          (lobe.sample ? of_numbers(lobe.sample, 2, pair.epsilon, seed)
-                       : count([&] { return !lobe.draw(random); }, kProbes, kMostCounted))
+          (lobe.sample ? of_numbers(lobe.sample, 2, pair.epsilon, precision, seed)
+                       : count([&] { return !lobe.draw(random); }, kMostCounted, precision))
               .scaled(lobe.probability);
       sum.value += share.value;
       sum.variance += share.variance;
@@ -214,9 +233,9 @@ RejectedShare measure_rejected(const SamplingPair& pair, std::uint64_t seed) {
   }
   if (pair.draw) {
     Random random = random_for(seed, Stream::probes);
-    return count([&] { return !pair.draw(random); }, kProbes, kMostCounted);
+    return count([&] { return !pair.draw(random); }, kMostCounted, precision);
   }
-  return of_numbers(pair.sample, pair.numbers, pair.epsilon, seed);
+  return of_numbers(pair.sample, pair.numbers, pair.epsilon, precision, seed);
 }
 
 }  // namespace plumbline::verify

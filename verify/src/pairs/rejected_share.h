@@ -23,6 +23,6 @@ struct RejectedShare {
 /// Measures the share until it is known well enough for the promise of the integral check, or a few
 /// million random numbers are spent: along lines, whose borders are bisected, where the sampler
 /// takes one or two numbers; on a jittered grid for three; by counting for a generator.
-RejectedShare measure_rejected(const SamplingPair& pair, std::uint64_t seed);
+RejectedShare measure_rejected(const SamplingPair& pair, const ContractOptions& options);
 
 }  // namespace plumbline::verify
