@@ -6,6 +6,7 @@
 #include "diagnosis/direct.h"
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
+#include "diagnosis/parts.h"
 #include "diagnosis/strays.h"
 #include "diagnosis/values.h"
 #include "text.h"
@@ -140,6 +141,9 @@ class Diagnosis {
     const auto all = all_hypotheses(evidence_, blame, density, false);
     const auto found = explain(density, all);
     if (!found.empty()) return from(found, which_function(found.front()));
+    for (const auto& explained : {explain_by_parts, explain_by_branches}) {
+      if (const auto f = explained(evidence_)) return {f->kind, f->words, {}, CauseKind::none};
+    }
     if (auto cause = of_shape(density)) return *cause;
     return {};
   }

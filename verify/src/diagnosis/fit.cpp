@@ -16,23 +16,6 @@ double squares(const Numbers& residuals) {
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::max();
 }
 
-/// Solves the small positive definite system by Gaussian elimination.
-Numbers solve(std::vector<Numbers> a, Numbers b) {
-  const std::size_t n = b.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t r = i + 1; r < n; ++r) {
-      const double factor = a[i][i] != 0 ? a[r][i] / a[i][i] : 0;
-      for (std::size_t c = i; c < n; ++c) a[r][c] -= factor * a[i][c];
-      b[r] -= factor * b[i];
-    }
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    for (std::size_t c = i + 1; c < n; ++c) b[i] -= a[i][c] * b[c];
-    b[i] = a[i][i] != 0 ? b[i] / a[i][i] : 0;
-  }
-  return b;
-}
-
 class LeastSquares {
  public:
   LeastSquares(const Observations& observations, const Prediction& prediction, int view)
@@ -58,7 +41,7 @@ class LeastSquares {
         for (std::size_t k = 0; k < r.size(); ++k) right[i] -= slopes[i][k] * r[k];
         normal[i][i] *= 1 + damping;
       }
-      Numbers moved = solve(normal, right);
+      Numbers moved = solve_definite(normal, right);
       double largest = 0;
       for (std::size_t i = 0; i < p.size(); ++i) {
         largest = std::max(largest, std::abs(moved[i]));
@@ -104,6 +87,22 @@ class LeastSquares {
 };
 
 }  // namespace
+
+std::vector<double> solve_definite(std::vector<std::vector<double>> a, std::vector<double> b) {
+  const std::size_t n = b.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t r = i + 1; r < n; ++r) {
+      const double factor = a[i][i] != 0 ? a[r][i] / a[i][i] : 0;
+      for (std::size_t c = i; c < n; ++c) a[r][c] -= factor * a[i][c];
+      b[r] -= factor * b[i];
+    }
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t c = i + 1; c < n; ++c) b[i] -= a[i][c] * b[c];
+    b[i] = a[i][i] != 0 ? b[i] / a[i][i] : 0;
+  }
+  return b;
+}
 
 std::vector<double> fit_parameters(const Observations& observations, const Prediction& prediction,
                                    const std::vector<std::vector<double>>& starts, int view) {

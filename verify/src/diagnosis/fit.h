@@ -13,4 +13,7 @@ namespace plumbline::verify {
 std::vector<double> fit_parameters(const Observations& observations, const Prediction& prediction,
                                    const std::vector<std::vector<double>>& starts, int view);
 
+/// Solves a small symmetric positive definite system. What is singular gets 0 there.
+std::vector<double> solve_definite(std::vector<std::vector<double>> a, std::vector<double> b);
+
 }  // namespace plumbline::verify

@@ -135,8 +135,9 @@ std::optional<Uniforms> BranchSearch::solve(const Vec3& x, Uniforms u) const {
   return off <= 256 * enough ? std::optional(u) : std::nullopt;
 }
 
-std::vector<Uniforms> BranchSearch::preimages(const Vec3& x, const Uniforms& known) const {
-  std::vector<Uniforms> found{known};
+std::vector<Uniforms> BranchSearch::preimages(const Vec3& x, std::optional<Uniforms> known) const {
+  std::vector<Uniforms> found;
+  if (known) found.push_back(*known);
   const double same = epsilon_ > 0x1p-40 ? kSameInFloat : kSame;
   for (const Uniforms& start : starts(x)) {
     const auto u = solve(x, start);

@@ -18,7 +18,7 @@ class BranchSearch {
   BranchSearch(const Map& map, int dimension, double epsilon);
 
   /// All that were found, `known` among them, each once.
-  std::vector<Uniforms> preimages(const Vec3& x, const Uniforms& known) const;
+  std::vector<Uniforms> preimages(const Vec3& x, std::optional<Uniforms> known = {}) const;
 
  private:
   struct Node {
