@@ -2,10 +2,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
+#include "diagnosis/shifts.h"
 #include "text.h"
 
 namespace plumbline::verify {
@@ -13,13 +13,6 @@ namespace plumbline::verify {
 namespace {
 
 using Moved = std::function<Vec3(const Place&)>;
-using Asked = std::function<double(const Place&, const Vec3&)>;
-
-/// Densities asked at another point, or values: what a prediction is over `base`.
-Asked asked(bool of_value) {
-  if (of_value) return [](const Place& p, const Vec3& x) { return value_at(*p.view, x); };
-  return [](const Place& p, const Vec3& x) { return pdf_at(*p.view, x); };
-}
 
 Hypothesis at_another_point(CauseKind kind, double complexity, const Asked& ask, Moved moved,
                             std::string words) {
@@ -214,113 +207,64 @@ void add_mirrored_points(std::vector<Hypothesis>& list, const Domain& domain, co
       "the two coordinates are exchanged");
 }
 
-/// Cells that maps and tables are likely to have, over the whole.
-std::vector<double> likely_shifts() {
-  std::set<double> shifts;
-  const auto add = [&shifts](double cells) {
-    shifts.insert(1 / cells);
-    shifts.insert(0.5 / cells);
+Vec3 turned_around(const Vec3& x, const Vec3& axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return sum(sum(scaled(x, c), scaled(cross(axis, x), s)), scaled(axis, dot(axis, x) * (1 - c)));
+}
+
+/// Mean direction of the samples, and of the pdf.
+std::pair<Vec3, Vec3> mean_directions(const ViewEvidence& view) {
+  constexpr int kSamples = 200'000, kRows = 600;
+  const SamplingPair& pair = *view.pair;
+  Random random(0x5eed, 48);
+  Vec3 of_samples{}, of_pdf{};
+  for (int i = 0; i < kSamples; ++i) {
+    const auto s = pair.next(random);
+    if (s && s->mass == 0 && is_finite(s->x)) of_samples = sum(of_samples, s->x);
+  }
+  const Chart& chart = pair.domain.chart();
+  for (int i = 0; i < kRows; ++i) {
+    for (int j = 0; j < kRows; ++j) {
+      const Point2 p{(i + 0.5) / kRows, (j + 0.5) / kRows};
+      const Vec3 x = chart.from_square(p);
+      const double mass = pair.pdf(x) * chart.element(p);
+      if (std::isfinite(mass)) of_pdf = sum(of_pdf, scaled(x, mass));
+    }
+  }
+  return {of_samples, of_pdf};
+}
+
+/// The whole density turned around any axis: samples around one axis, the pdf around another.
+void add_turned_as_a_whole(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
+                           const Blame& blame, const Asked& ask) {
+  auto [from, to] = mean_directions(evidence.views.front());
+  if (!(length(from) > 0) || !(length(to) > 0)) return;
+  from = normalized(from);
+  to = normalized(to);
+  const Vec3 normal = cross(from, to);
+  constexpr double kApart = 0.02;
+  if (!(length(normal) > kApart)) return;
+  const Vec3 axis = normalized(normal);
+  const double angle = std::atan2(length(normal), dot(from, to));
+  Hypothesis h;
+  h.kind = CauseKind::tangent_frame;
+  h.complexity = 1;
+  h.starts = {{angle * axis[0], angle * axis[1], angle * axis[2]}};
+  h.prediction = [ask](const Place& p, std::span<const double> n) {
+    const Vec3 r{n[0], n[1], n[2]};
+    const double by = length(r);
+    return ask(p, by > 0 ? turned_around(p.x, scaled(r, 1 / by), by) : p.x);
   };
-  for (int n = 2; n <= 160; ++n) add(n);
-  for (int n = 256; n <= 8192; n *= 2) add(n);
-  for (const double n : {180., 192., 200., 240., 250., 300., 320., 360., 384.,  400.,
-                         480., 500., 600., 640., 720., 768., 800., 900., 1000., 2000.}) {
-    add(n);
-  }
-  std::vector<double> both;
-  for (const double s : shifts) both.insert(both.end(), {s, -s});
-  return both;
-}
-
-double wrapped(double x) { return x - std::floor(x); }
-
-void add_shifted_points(std::vector<Hypothesis>& list, const Domain& domain, const Blame& blame,
-                        const Asked& ask) {
-  const auto coordinates = domain.dimension() == 1 ? 1u : 2u;
-  for (const double shift : likely_shifts()) {
-    for (std::size_t i = 0; i < coordinates; ++i) {
-      list.push_back(on_square(
-          CauseKind::shifted, 10 + (std::abs(shift) < 0.002 ? 1 : 0), ask,
-          [i, shift](const Point2& p) {
-            Point2 q = p;
-            q[i] = wrapped(p[i] + shift);
-            return q;
-          },
-          blame.function + " is that of samples moved by " + number(shift) + " of the " +
-              (coordinates == 1 ? "interval"
-               : i == 0         ? "first extent"
-                                : "second extent") +
-              " (a cell or half of one)"));
-    }
-  }
-}
-
-/// Azimuth or latitude of a map around an axis, moved.
-Vec3 moved_on_map(const Vec3& w, std::size_t pole, double azimuth, double polar) {
-  const std::size_t a = (pole + 1) % 3, b = (pole + 2) % 3;
-  const double radius = std::hypot(w[a], w[b]);
-  const double theta =
-      std::clamp(std::atan2(radius, w[pole]) + polar, 1e-9, std::numbers::pi - 1e-9);
-  const double phi = std::atan2(w[b], w[a]) + azimuth;
-  Vec3 moved;
-  moved[pole] = std::cos(theta);
-  moved[a] = std::sin(theta) * std::cos(phi);
-  moved[b] = std::sin(theta) * std::sin(phi);
-  return moved;
-}
-
-double sine_from(const Vec3& w, std::size_t pole) {
-  return std::sqrt(std::max(1e-300, 1 - w[pole] * w[pole]));
-}
-
-void add_shifted_directions(std::vector<Hypothesis>& list, const Blame& blame, const Asked& ask) {
-  static constexpr const char* kAxes[] = {"x", "y", "z"};
-  constexpr double kPi = std::numbers::pi;
-  for (const std::size_t pole : {std::size_t{2}, std::size_t{1}, std::size_t{0}}) {
-    const std::string around = std::string(" around the ") + kAxes[pole] + " axis";
-    const double rank = 10 + (pole == 2 ? 0 : pole == 1 ? 0.5 : 1);
-    for (const double shift : likely_shifts()) {
-      list.push_back(at_another_point(
-          CauseKind::shifted, rank, ask,
-          [=](const Place& p) { return moved_on_map(p.x, pole, 2 * kPi * shift, 0); },
-          blame.function + " is that of directions turned by " + number(shift) + " of a turn" +
-              around + " (a column or half of one)"));
-      const std::string rows = blame.function + " is that of directions moved by " + number(shift) +
-                               " of the latitudes" + around + " (a row or half of one)";
-      list.push_back(at_another_point(
-          CauseKind::shifted, rank + 0.1, ask,
-          [=](const Place& p) { return moved_on_map(p.x, pole, 0, kPi * shift); }, rows));
-      Hypothesis by_rows;
-      by_rows.kind = CauseKind::shifted;
-      by_rows.complexity = rank + 0.2;
-      by_rows.prediction = [=](const Place& p, std::span<const double>) {
-        const Vec3 moved = moved_on_map(p.x, pole, 0, kPi * shift);
-        return ask(p, moved) * sine_from(moved, pole) / sine_from(p.x, pole);
-      };
-      by_rows.words = [rows](std::span<const double>) { return rows; };
-      list.push_back(std::move(by_rows));
-    }
-    // sinθ of the middle of a row in place of that of the direction, or the reverse.
-    for (int rows = 2; rows <= 2048; rows += rows < 160 ? 1 : rows) {
-      for (const double power : {1.0, -1.0}) {
-        Hypothesis h;
-        h.kind = CauseKind::sine;
-        h.complexity = rank;
-        h.prediction = [=](const Place& p, std::span<const double>) {
-          const double theta = std::acos(std::clamp(p.x[pole], -1.0, 1.0));
-          const double middle = (std::floor(theta / kPi * rows) + 0.5) * kPi / rows;
-          return p.base * std::pow(std::sin(middle) / sine_from(p.x, pole), power);
-        };
-        h.words = [=](std::span<const double>) {
-          return blame.function + " has sinθ " +
-                 (power > 0 ? "of the direction where samples have that of the middle of a row"
-                            : "of the middle of a row where samples have that of the direction") +
-                 " (" + std::to_string(rows) + " rows)";
-        };
-        list.push_back(std::move(h));
-      }
-    }
-  }
+  h.words = [blame, from, to](std::span<const double>) {
+    const auto text = [](const Vec3& w) {
+      std::string all;
+      for (const double c : w) all += (all.empty() ? "" : ", ") + number(std::round(1e3 * c) / 1e3);
+      return all;
+    };
+    return "samples lie around (" + text(from) + "), " + blame.function + " is the same around (" +
+           text(to) + "): their frames differ";
+  };
+  list.push_back(std::move(h));
 }
 
 void add_discrete(std::vector<Hypothesis>& list, const Domain& domain, const Blame& blame,
@@ -340,6 +284,14 @@ void add_discrete(std::vector<Hypothesis>& list, const Domain& domain, const Bla
         },
         blame.function + " is off by " + number(shift) + " in the index"));
   }
+  Hypothesis even;
+  even.kind = CauseKind::choice_probability;
+  even.complexity = 1;
+  even.prediction = [size](const Place&, std::span<const double>) { return 1 / size; };
+  even.words = [blame](std::span<const double>) {
+    return "all are chosen alike, whatever " + blame.function + " says";
+  };
+  list.push_back(std::move(even));
 }
 
 }  // namespace
@@ -360,11 +312,10 @@ std::vector<Hypothesis> argument_hypotheses(const ReportEvidence& evidence, cons
       add_turned(list, blame, ask);
       add_mirrored_behind(list, blame, ask);
     } else {
-      add_shifted_directions(list, blame, ask);
+      add_turned_as_a_whole(list, evidence, blame, ask);
     }
   } else {
     add_mirrored_points(list, domain, blame, ask);
-    add_shifted_points(list, domain, blame, ask);
   }
   return list;
 }

@@ -7,6 +7,7 @@
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
 #include "diagnosis/parts.h"
+#include "diagnosis/shifts.h"
 #include "diagnosis/strays.h"
 #include "diagnosis/values.h"
 #include "text.h"
@@ -27,6 +28,7 @@ std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Bla
   add(constant_hypotheses(evidence, blame, observations));
   add(factor_hypotheses(evidence, blame, observations));
   add(argument_hypotheses(evidence, blame, of_value));
+  add(shift_hypotheses(evidence, blame, of_value));
   add(parametric_hypotheses(evidence, blame, observations));
   if (!of_value) add(mixture_hypotheses(evidence, blame, observations));
   return all;
@@ -230,7 +232,10 @@ class Diagnosis {
     }
     Cause cause = from(explain(inverted, factors));
     if (cause.kind == CauseKind::none) {
-      const auto others = argument_hypotheses(evidence_, {"the pdf in the record", "it"}, false);
+      const Blame itself{"the pdf in the record", "it"};
+      auto others = argument_hypotheses(evidence_, itself, false);
+      auto shifts = shift_hypotheses(evidence_, itself, false);
+      std::move(shifts.begin(), shifts.end(), std::back_inserter(others));
       cause = from(explain(record, others));
     }
     const std::string right = "the pdf in the record is wrong: samples are as dense as pdf() says";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "distributions.h"
@@ -52,7 +53,9 @@ BinPrediction predict(const CountedBin& bin, const Prediction& prediction,
     looked_at += bin.shares[i];
     if (!(bin.nodes[i].base > 0)) continue;
     seen = true;
-    const double ratio = prediction(bin.nodes[i], parameters) / bin.nodes[i].base;
+    const double predicted = prediction(bin.nodes[i], parameters);
+    if (predicted == kNothingSaid) return {std::numeric_limits<double>::quiet_NaN(), 0};
+    const double ratio = predicted / bin.nodes[i].base;
     mean += bin.shares[i] * ratio;
     squares += bin.shares[i] * ratio * ratio;
   }
@@ -260,9 +263,14 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
   const ViewObservations& o = views_[view];
   const double exact = static_cast<double>(o.exact.size());
   const double most = o.exact.size() < 100 ? 0 : std::max(kFolds, kFoldShare * exact);
-  double outliers = 0;
+  double outliers = 0, unknown_points = 0;
   for (const ExactPoint& p : o.exact) {
-    const double z = std::abs(log_residual(p, prediction(p.place, numbers))) / error_of(p);
+    const double predicted = prediction(p.place, numbers);
+    if (predicted == kNothingSaid) {
+      unknown_points += 1;
+      continue;
+    }
+    const double z = std::abs(log_residual(p, predicted)) / error_of(p);
     ++fit.tested;
     if (!(z <= kExactPull)) {
       if (++outliers > most) return fit;
@@ -270,6 +278,8 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
       fit.worst = std::max(fit.worst, z / kExactPull);
     }
   }
+  constexpr double kMostUnknown = 0.5;
+  if (unknown_points > kMostUnknown * exact) return fit;
   if (o.judge_strays) {
     double explained = 0;
     for (const Vec3& x : o.view->strays) {
@@ -277,16 +287,28 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
     }
     if (explained < 0.98 * static_cast<double>(o.view->strays.size())) return fit;
   }
+  // Exact points lie where samples do. Bins that hold far more than expected have their nodes where
+  // the pdf is, not where the samples are, and say nothing that those points do not.
+  constexpr std::size_t kManyExact = 200;
+  constexpr double kCrowded = 2;
+  const bool followed = o.exact.size() >= kManyExact && o.view->strays.empty();
+  bool unknown = false;  // what the whole holds
   Pulls pulls;
   const double n = o.view->samples;
   double total = 0, variance = 0;
   bool varies = false;
   for (const CountedBin& bin : o.bins) {
     const BinPrediction p = predict(bin, prediction, numbers);
+    if (std::isnan(p.expected)) {
+      unknown = true;
+      continue;
+    }
     total += p.expected / n;
     variance += std::pow(std::max(0.0, p.error) / n, 2);
     varies = varies || p.varies;
-    if (!bin.judged || (bin.edge && p.varies)) continue;
+    const bool crowded = followed && bin.observed > kCrowded * bin.expected;
+    unknown = unknown || crowded;
+    if (!bin.judged || crowded || (bin.edge && p.varies)) continue;
     const double z = pull(bin, p);
     ++fit.tested;
     if (!(std::abs(z) <= allowed)) return fit;
@@ -294,7 +316,7 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
   }
   if (!pulls.agree(kLevel / static_cast<double>(views_.size()))) return fit;
   fit.worst = std::max(fit.worst, pulls.worst() / allowed);
-  if (o.judge_mass) {
+  if (o.judge_mass && !unknown) {
     const MassSeen& mass = *o.view->mass;
     // Numbers are fitted to a part of the counts; nodes are no cubature.
     constexpr double kFittedBins = 60;
@@ -329,14 +351,16 @@ std::vector<double> Observations::residuals(const Prediction& prediction,
     const ViewObservations& o = views_[v];
     const std::size_t step = 2 * std::max<std::size_t>(1, o.exact.size() / (2 * each));
     for (std::size_t i = 0; i < o.exact.size(); i += step) {
-      const double r = log_residual(o.exact[i], prediction(o.exact[i].place, parameters));
+      const double predicted = prediction(o.exact[i].place, parameters);
+      const double r = predicted == kNothingSaid ? 0 : log_residual(o.exact[i], predicted);
       out.push_back(r / (flatten ? std::max(kFlat, error_of(o.exact[i])) : error_of(o.exact[i])));
     }
     const std::size_t bin_step = 2 * std::max<std::size_t>(1, o.bins.size() / (2 * each));
     for (std::size_t i = 0; i < o.bins.size(); i += bin_step) {
       if (!o.bins[i].judged || o.bins[i].edge) continue;
       const std::size_t stride = flatten && o.bins[i].nodes.size() > 8 ? 4 : 1;
-      out.push_back(pull(o.bins[i], predict(o.bins[i], prediction, parameters, stride)));
+      const BinPrediction p = predict(o.bins[i], prediction, parameters, stride);
+      out.push_back(std::isnan(p.expected) ? 0 : pull(o.bins[i], p));
     }
   }
   for (double& r : out) {

@@ -11,8 +11,10 @@
 namespace plumbline::verify {
 
 /// Of a hypothesis: what stands over the base of a place (the true density, the record's pdf,
-/// weight · pdf()), given its free numbers.
+/// weight · pdf()), given its free numbers; kNothingSaid where it does not know.
 using Prediction = std::function<double(const Place&, std::span<const double>)>;
+
+inline constexpr double kNothingSaid = -1;
 
 /// That what is stated is right.
 inline double as_stated(const Place& p, std::span<const double>) { return p.base; }
