@@ -30,6 +30,7 @@ std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Bla
   add(argument_hypotheses(evidence, blame, of_value));
   add(shift_hypotheses(evidence, blame, of_value));
   add(parametric_hypotheses(evidence, blame, observations));
+  add(light_hypotheses(evidence, blame));
   if (!of_value) add(mixture_hypotheses(evidence, blame, observations));
   return all;
 }

@@ -79,6 +79,9 @@ std::vector<Hypothesis> argument_hypotheses(const ReportEvidence& evidence, cons
 std::vector<Hypothesis> mixture_hypotheses(const ReportEvidence& evidence, const Blame& blame,
                                            const Observations& observations);
 
+/// Area against solid angle of planar and spherical lights.
+std::vector<Hypothesis> light_hypotheses(const ReportEvidence& evidence, const Blame& blame);
+
 /// Microfacet terms with a free number: masking, roughness, Fresnel, exponents, rates.
 std::vector<Hypothesis> parametric_hypotheses(const ReportEvidence& evidence, const Blame& blame,
                                               const Observations& observations);

@@ -239,6 +239,25 @@ void add_other_companion(std::vector<Hypothesis>& list, const Companion& samples
   }
 }
 
+/// One lobe with wo and wi exchanged beside one that knows wi alone: p = q(wi, wo) + w (c(wi) −
+/// c(wo)).
+void add_swapped_beside(std::vector<Hypothesis>& list, const Companion& c, const Blame& blame) {
+  Hypothesis h;
+  h.kind = CauseKind::directions_swapped;
+  h.complexity = 3 + c.rank;
+  h.starts = {{-1.0}, {1.0}};
+  h.prediction = [density = c.density](const Place& p, std::span<const double> n) {
+    const Place turned{p.view, p.x, p.wo, 0};
+    return std::max(0.0,
+                    pdf_at(*p.view, p.x, p.wo) + logistic(n[0]) * (density(p) - density(turned)));
+  };
+  h.words = [name = std::string(c.name), blame](std::span<const double>) {
+    return "wo and wi are exchanged in " + blame.function + " of one lobe (beside one that is " +
+           name + ")";
+  };
+  list.push_back(std::move(h));
+}
+
 void add_another_density(std::vector<Hypothesis>& list, const std::vector<Companion>& companions,
                          const Blame& blame) {
   for (const Companion& c : companions) {
@@ -268,6 +287,7 @@ std::vector<Hypothesis> mixture_hypotheses(const ReportEvidence& evidence, const
   const std::vector<Companion> beside = companions(true);
   add_companion_probability(list, beside[0], blame);
   add_companion_probability(list, beside[1], blame);
+  add_swapped_beside(list, beside[0], blame);
   add_factor_of_other_lobe(list, beside[0], blame);
   add_factor_of_other_lobe(list, beside[1], blame);
   add_other_companion(list, beside[0], beside[1], CauseKind::cosine, blame);

@@ -156,6 +156,8 @@ void add_exponents(std::vector<Hypothesis>& list, bool bsdf, const Blame& blame)
   std::vector<Form> forms = {{"cosθ", [](const Place& p) { return std::abs(p.x[2]); }}};
   if (bsdf) {
     forms.push_back({"cosθh", [](const Place& p) { return std::abs(half_of(p)[2]); }});
+    forms.push_back(
+        {"the cosine to wo", [](const Place& p) { return std::max(0.0, dot(p.wo, p.x)); }});
     forms.push_back({"the cosine to the mirror direction", [](const Place& p) {
                        return std::max(0.0, p.wo[2] * p.x[2] - p.wo[0] * p.x[0] - p.wo[1] * p.x[1]);
                      }});
@@ -218,6 +220,8 @@ void add_fresnel(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
   const Form forms[] = {
       {"F of reflection and 1 − F of transmission are missing from ", 0,
        CauseKind::lobe_probability, [](double f, bool through) { return through ? 1 - f : f; }},
+      {"F and 1 − F choose the side, a half stands for either in ", 1, CauseKind::fresnel,
+       [](double f, bool through) { return 2 * (through ? 1 - f : f); }},
       {"F of reflection and 1 − F of transmission are exchanged in ", 1, CauseKind::fresnel,
        [](double f, bool through) { return through ? (1 - f) / f : f / (1 - f); }},
       {"F of reflection is missing from ", 1, CauseKind::fresnel,
@@ -247,6 +251,31 @@ void add_fresnel(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
         list.push_back(std::move(h));
       }
     }
+  }
+}
+
+/// The side is chosen by F of one cosine, and pdf() has F of another.
+void add_other_fresnel(std::vector<Hypothesis>& list, const Blame& blame) {
+  struct Cosine {
+    const char* name;
+    double (*value)(const Place&);
+  };
+  constexpr Cosine kOfSurface{"cosθo", [](const Place& p) { return p.wo[2]; }};
+  constexpr Cosine kOfHalf{"wo·h", [](const Place& p) { return dot(p.wo, half_of(p)); }};
+  for (const auto& [right, wrong] :
+       {std::pair{kOfSurface, kOfHalf}, std::pair{kOfHalf, kOfSurface}}) {
+    Hypothesis h;
+    h.kind = CauseKind::fresnel;
+    h.complexity = 2;
+    h.prediction = [r = right.value, w = wrong.value](const Place& p, std::span<const double>) {
+      const double eta = p.wo[2] < 0 ? 1 / p.view->eta : p.view->eta;
+      const double f = fresnel_dielectric(r(p), eta), g = fresnel_dielectric(w(p), eta);
+      return p.base * (transmits(p.wo, p.x) ? (1 - f) / (1 - g) : f / g);
+    };
+    h.words = [text = std::string("the side is chosen by F of ") + right.name + ", but " +
+                      blame.function + " has F of " +
+                      wrong.name](std::span<const double>) { return text; };
+    list.push_back(std::move(h));
   }
 }
 
@@ -292,51 +321,6 @@ void add_axial(std::vector<Hypothesis>& list, const Blame& blame) {
   }
 }
 
-/// A planar light, by area for solid angle: dA = r²/cosθ_l dω and r = D/cosθ_l.
-void add_planar_light(std::vector<Hypothesis>& list, const Blame& blame) {
-  struct Form {
-    double power;
-    const char* words;
-  };
-  const Form forms[] = {{-3, "density per area in place of solid angle in "},
-                        {-2, "r² missing from "},
-                        {-1, "cosθ at the light missing from "},
-                        {1, "cosθ at the light too many in "},
-                        {-4, "cosθ at the light multiplied instead of divided, and no r², in "},
-                        {2, "cosθ at the light multiplied instead of divided in "}};
-  for (const Form& f : forms) {
-    const auto add = [&](Starts starts, double complexity, bool fixed, std::size_t axis) {
-      Hypothesis h;
-      h.kind = CauseKind::distance_or_area;
-      h.complexity = complexity;
-      h.starts = std::move(starts);
-      h.prediction = [=, power = f.power](const Place& p, std::span<const double> n) {
-        double c = 0;
-        if (fixed) {
-          c = std::abs(p.x[axis]);
-        } else {
-          const double s = std::sin(n[1]);
-          c = std::abs(s * std::cos(n[2]) * p.x[0] + s * std::sin(n[2]) * p.x[1] +
-                       std::cos(n[1]) * p.x[2]);
-        }
-        return p.base * std::exp(n[0]) * std::pow(c, power);
-      };
-      h.words = [=, text = std::string(f.words)](std::span<const double>) {
-        return text + blame.function + " (a planar light)";
-      };
-      list.push_back(std::move(h));
-    };
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      add({{0.0}}, 1 + (std::abs(f.power) < 2 ? 0.5 : 0), true, axis);
-    }
-    Starts starts;
-    for (const double theta : {0.3, 0.8, 1.3}) {
-      for (int k = 0; k < 8; ++k) starts.push_back({0.0, theta, 0.1 + k * 0.7854});
-    }
-    add(std::move(starts), 2, false, 0);
-  }
-}
-
 /// Along an interval: exp(−k x) of another rate.
 void add_rates(std::vector<Hypothesis>& list, const Blame& blame) {
   Hypothesis h;
@@ -378,9 +362,9 @@ std::vector<Hypothesis> parametric_hypotheses(const ReportEvidence& evidence, co
     add_masking(list, blame);
     add_roughness(list, blame);
     add_fresnel(list, evidence, blame);
+    if (view.eta != 1) add_other_fresnel(list, blame);
   } else {
     add_axial(list, blame);
-    add_planar_light(list, blame);
   }
   return list;
 }

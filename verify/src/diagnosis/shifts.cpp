@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <string>
 
+#include "diagnosis/geometry.h"
 #include "text.h"
 
 namespace plumbline::verify {
@@ -92,8 +94,15 @@ void add_shifted_points(std::vector<Hypothesis>& list, const Domain& domain, con
 /// A density on a line that is another one's, moved by any length, with another mass or not.
 void add_moved_on_line(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
                        const Blame& blame, const Asked& ask) {
+  // Counts alone cannot tell what is moved from what is scaled.
+  constexpr std::size_t kFewest = 100;
   double samples = 0, expected = 0, of_samples = 0, of_expected = 0;
   for (const ViewEvidence& v : evidence.views) {
+    if (std::none_of(v.ratios.begin(), v.ratios.end(), [](const RatioSeries& s) {
+          return s.kind == RatioKind::density_over_pdf && s.points.size() >= kFewest;
+        })) {
+      return;
+    }
     for (const BinSeen& b : v.bins) {
       for (std::size_t i = 0; i < b.nodes.size(); ++i) {
         of_samples += b.observed * b.shares[i] * b.nodes[i][0];
@@ -125,12 +134,12 @@ void add_moved_on_line(std::vector<Hypothesis>& list, const ReportEvidence& evid
   }
 }
 
-/// Azimuth or latitude of a map around an axis, moved.
-Vec3 moved_on_map(const Vec3& w, std::size_t pole, double azimuth, double polar) {
+/// Azimuth or latitude of a map around an axis, moved; nullopt beyond the poles.
+std::optional<Vec3> moved_on_map(const Vec3& w, std::size_t pole, double azimuth, double polar) {
   const std::size_t a = (pole + 1) % 3, b = (pole + 2) % 3;
   const double radius = std::hypot(w[a], w[b]);
-  const double theta =
-      std::clamp(std::atan2(radius, w[pole]) + polar, 1e-9, std::numbers::pi - 1e-9);
+  const double theta = std::atan2(radius, w[pole]) + polar;
+  if (theta < 0 || theta > std::numbers::pi) return std::nullopt;
   const double phi = std::atan2(w[b], w[a]) + azimuth;
   Vec3 moved;
   moved[pole] = std::cos(theta);
@@ -162,16 +171,18 @@ void add_shifted_directions(std::vector<Hypothesis>& list, const Blame& blame, c
           blame.function + " is that of directions turned by " + number(shift) + " of a turn" +
               around + " (a column or half of one)",
           [=](const Place& p, std::span<const double>) {
-            return ask(p, moved_on_map(p.x, pole, 2 * kPi * shift, 0));
+            return ask(p, *moved_on_map(p.x, pole, 2 * kPi * shift, 0));
           });
       const std::string rows = blame.function + " is that of directions moved by " + number(shift) +
                                " of the latitudes" + around + " (a row or half of one)";
       add(rank + 0.1, rows, [=](const Place& p, std::span<const double>) {
-        return ask(p, moved_on_map(p.x, pole, 0, kPi * shift));
+        const auto moved = moved_on_map(p.x, pole, 0, kPi * shift);
+        return moved ? ask(p, *moved) : kNothingSaid;
       });
       add(rank + 0.2, rows, [=](const Place& p, std::span<const double>) {
-        const Vec3 moved = moved_on_map(p.x, pole, 0, kPi * shift);
-        return ask(p, moved) * sine_from(moved, pole) / sine_from(p.x, pole);
+        const auto moved = moved_on_map(p.x, pole, 0, kPi * shift);
+        return moved ? ask(p, *moved) * sine_from(*moved, pole) / sine_from(p.x, pole)
+                     : kNothingSaid;
       });
     }
     // sinθ of the middle of a row in place of that of the direction, or the reverse.
@@ -197,6 +208,41 @@ void add_shifted_directions(std::vector<Hypothesis>& list, const Blame& blame, c
   }
 }
 
+/// A table over half vectors, moved by columns or rows: p(wo·h) is a function of h alone.
+void add_shifted_half_vectors(std::vector<Hypothesis>& list, const Blame& blame) {
+  constexpr double kLeast = 1 / 256.0;
+  struct Way {
+    double turns, quarter_turns, of_sine;
+    const char* words;
+  };
+  const Way ways[] = {{1, 0, 0, " of a turn around the normal (a column or half of one)"},
+                      {0, 1, 0, " of a quarter of a turn from the normal (a row or half of one)"},
+                      {0, 1, 1, " of a quarter of a turn from the normal (a row or half of one)"}};
+  for (const double shift : likely_shifts()) {
+    if (std::abs(shift) < kLeast) continue;
+    for (const Way& way : ways) {
+      Hypothesis h;
+      h.kind = CauseKind::shifted;
+      h.complexity = 12;
+      h.prediction = [=](const Place& p, std::span<const double>) {
+        const Vec3 here = half_vector_of(p.wo, p.x, 1);
+        const auto there = moved_on_map(here, 2, 2 * std::numbers::pi * way.turns * shift,
+                                        std::numbers::pi / 2 * way.quarter_turns * shift);
+        if (!there || (*there)[2] < 0) return kNothingSaid;
+        const double before = dot(p.wo, here), after = dot(p.wo, *there);
+        const Vec3 wi = sum(scaled(*there, 2 * after), scaled(p.wo, -1));
+        if (wi[2] * p.wo[2] <= 0) return kNothingSaid;
+        const double sines = sine_from(*there, 2) / sine_from(here, 2);
+        return pdf_at(*p.view, wi) * std::abs(after / before) * std::pow(sines, way.of_sine);
+      };
+      h.words = [=, words = std::string(way.words)](std::span<const double>) {
+        return blame.function + " is that of half vectors moved by " + number(shift) + words;
+      };
+      list.push_back(std::move(h));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Hypothesis> shift_hypotheses(const ReportEvidence& evidence, const Blame& blame,
@@ -205,7 +251,11 @@ std::vector<Hypothesis> shift_hypotheses(const ReportEvidence& evidence, const B
   const ViewEvidence& view = evidence.views.front();
   const Domain& domain = view.pair->domain;
   const Asked ask = asked(of_value);
-  if (domain.dimension() == 0 || has_wo(view)) return list;
+  if (domain.dimension() == 0) return list;
+  if (has_wo(view)) {
+    if (view.bsdf != nullptr && !of_value) add_shifted_half_vectors(list, blame);
+    return list;
+  }
   if (domain.directions()) {
     add_shifted_directions(list, blame, ask);
     add_shifted_points(list, Domain::octahedral(1), blame, ask);
