@@ -117,13 +117,16 @@ void add_spherical_light(std::vector<Hypothesis>& list, const ReportEvidence& ev
                         {0, 2, "r² missing from "},
                         {0, 4, "r² divided instead of multiplied in "},
                         {-1, 2, "density per area in place of solid angle in "}};
+  const Vec3 other = std::abs(seen->axis[2]) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
+  const Vec3 right = normalized(cross(other, seen->axis)), up = cross(seen->axis, right);
   for (const Form& f : forms) {
     Hypothesis h;
     h.kind = CauseKind::distance_or_area;
     h.complexity = 2;
-    h.starts = {{0.0, std::log(seen->sine) + 1e-4}};
-    h.prediction = [f, axis = seen->axis](const Place& p, std::span<const double> n) {
-      const SeenSphere sphere{axis, std::min(1.0, std::exp(n[1]))};
+    h.starts = {{0.0, std::log(seen->sine) + 1e-4, 0.0, 0.0}};
+    h.prediction = [f, axis = seen->axis, right, up](const Place& p, std::span<const double> n) {
+      const Vec3 turned = normalized(sum(axis, sum(scaled(right, n[2]), scaled(up, n[3]))));
+      const SeenSphere sphere{turned, std::min(1.0, std::exp(n[1]))};
       return p.base * std::exp(n[0]) * std::pow(sphere.cosine(p.x), f.of_cosine) *
              std::pow(sphere.distance(p.x), f.of_distance);
     };

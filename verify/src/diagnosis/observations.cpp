@@ -16,8 +16,8 @@ constexpr std::size_t kExactPerView = 400;
 constexpr std::size_t kFewFitted = 40;
 constexpr std::size_t kMostFitted = 240;
 // A point at a fold of the map may give a wrong difference with a small error.
-constexpr double kFoldShare = 0.003;
-constexpr double kFolds = 2;
+constexpr double kFoldShare = 0.007;
+constexpr double kFolds = 3;
 // The hypothesis itself is evaluated in double.
 constexpr double kOwnRounding = 1e-9;
 // An admissible hypothesis that is the truth is thrown away once in so many reports.
@@ -278,7 +278,7 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
       fit.worst = std::max(fit.worst, z / kExactPull);
     }
   }
-  constexpr double kMostUnknown = 0.7;
+  constexpr double kMostUnknown = 0.85;
   if (unknown_points > kMostUnknown * exact) return fit;
   if (o.judge_strays) {
     double explained = 0;

@@ -74,6 +74,7 @@ class Jacobian {
     outcome_.below_everywhere =
         one_map && failing_ > 0 && !more_than_seams(failing_ - failing_below_);
     if (one_map && too_many_fail() && outcome_.below_everywhere) look_for_branches();
+    if (one_map && too_many_fail() && !branches_) add_up_branches();
     for (RatioSeries* s : {&of_lobes_, &of_whole_}) {
       if (!s->points.empty()) outcome_.ratios.push_back(std::move(*s));
     }
@@ -212,6 +213,26 @@ class Jacobian {
           "them; with lobes exposed (lobe_count, lobe_probability, sample_lobe, pdf_lobe) they are "
           "checked one by one";
     }
+  }
+
+  /// Of a map that fails and is many-to-one, a diagnosis needs the density of all ways to a point.
+  void add_up_branches() {
+    const BranchSearch search(pair_.sample, dimension(), pair_.epsilon);
+    RatioSeries sums{RatioKind::density_over_pdf, {}};
+    double several = 0;
+    for (std::size_t i = 0; i < kBranchPoints; ++i) {
+      const Uniforms u{random_.uniform(), dimension() == 1 ? 0 : random_.uniform(), 0};
+      const auto sample = pair_.sample(u);
+      if (!sample || sample->mass > 0) continue;
+      const double pdf = pair_.pdf(sample->x);
+      const std::vector<Uniforms> preimages = search.preimages(sample->x, u);
+      const auto density = sum_over(preimages, pair_.sample);
+      if (!(pdf > 0) || !density || !(density->relative_error <= tolerance_ / 4)) continue;
+      several += preimages.size() > 1 ? 1 : 0;
+      sums.points.push_back({sample->x, density->value / pdf,
+                             std::max(density->relative_error, 256 * pair_.epsilon), -1});
+    }
+    if (several > kManyToOne * static_cast<double>(sums.points.size())) of_whole_ = std::move(sums);
   }
 
   /// pdf = Σ probability · lobe pdf, at points of every lobe.
