@@ -6,7 +6,7 @@
 #include "diagnosis/direct.h"
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
-#include "diagnosis/parts.h"
+#include "diagnosis/part_explanations.h"
 #include "diagnosis/shifts.h"
 #include "diagnosis/strays.h"
 #include "diagnosis/values.h"

@@ -3,8 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/direct.h"
 #include "diagnosis/evidence.h"
+#include "pairs/branches.h"
+#include "pairs/differences.h"
 
 /// A sampler taken apart: one of its numbers chooses a part, a lobe as a rule, and what each part
 /// adds to the density is found by itself, without a word from the code about it.
@@ -23,12 +24,48 @@ struct Parts {
 /// The number whose map jumps at the same values whatever the other numbers are.
 Parts parts_of(const SamplingPair& pair);
 
-/// pdf() = Σ a q over the densities q of the parts, with a that are not the shares of the numbers
-/// that choose them: where Σ a is ∫pdf, the probabilities are wrong; else parts are sampled by
-/// half.
-std::optional<Finding> explain_by_parts(const ReportEvidence& evidence);
+/// A map of numbers, no lobes or preimages that are known.
+bool can_be_taken_apart(const SamplingPair& pair);
 
-/// Where several random numbers lead to one point, pdf() is the density that one of them brings.
-std::optional<Finding> explain_by_branches(const ReportEvidence& evidence);
+/// A sample that is neither rejected nor an atom.
+bool has_density(const std::optional<SampleRecord>& sample);
+
+/// What densities by differences and their sums are known to.
+double tolerance_of_parts(const SamplingPair& pair);
+
+/// A part's map from its own numbers in [0, 1), as many as the domain has dimensions.
+class PartMap {
+ public:
+  PartMap(const SamplingPair& pair, const Parts& parts, std::size_t part);
+  PartMap(const PartMap&) = delete;
+  PartMap& operator=(const PartMap&) = delete;
+
+  bool usable() const { return numbers_.size() == dimension(); }
+  const Map& map() const { return map_; }
+
+  /// The number that chooses the part moves samples in it as well.
+  bool uses_chooser() const;
+
+  Uniforms draw(Random& random) const;
+
+  /// Densities at a point that the numbers that lead to it bring, one each; nullopt where one of
+  /// them is not known.
+  std::optional<std::vector<DensityAt>> densities(const Vec3& x) const;
+
+  /// Share of the part's numbers that are not rejected.
+  double accepted() const;
+
+ private:
+  std::size_t dimension() const { return static_cast<std::size_t>(pair_.domain.dimension()); }
+  Uniforms whole(const Uniforms& u) const;
+  void find_numbers();
+
+  const SamplingPair& pair_;
+  const Parts& parts_;
+  std::size_t part_;
+  std::vector<std::size_t> numbers_;
+  Map map_;
+  std::optional<BranchSearch> search_;
+};
 
 }  // namespace plumbline::verify

@@ -1,0 +1,285 @@
+#include "diagnosis/part_explanations.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <string>
+
+#include "diagnosis/ask.h"
+#include "diagnosis/fit.h"
+#include "diagnosis/parts.h"
+#include "text.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+constexpr std::uint64_t kSeed = 0x5eed, kStream = 47;
+// Views that are taken apart, and points of each part.
+constexpr std::size_t kViews = 2;
+constexpr int kPointsPerPart = 16;
+// A fold that differences do not see, or a branch that the search misses: among so many points few.
+constexpr double kMissed = 0.06;
+
+using Maps = std::vector<std::unique_ptr<PartMap>>;
+
+Maps maps_of(const SamplingPair& pair, const Parts& parts) {
+  Maps maps;
+  for (std::size_t i = 0; i < parts.count(); ++i) {
+    maps.push_back(std::make_unique<PartMap>(pair, parts, i));
+    if (!maps.back()->usable()) return {};
+  }
+  return maps;
+}
+
+/// One equation Σ a q/pdf = 1.
+struct Equation {
+  std::vector<double> q;
+  double error = 0;
+};
+
+std::vector<Equation> equations_of(const SamplingPair& pair, const Maps& maps) {
+  std::vector<Equation> equations;
+  Random random(kSeed, kStream);
+  for (const auto& part : maps) {
+    for (int i = 0; i < kPointsPerPart; ++i) {
+      const auto s = part->map()(part->draw(random));
+      if (!has_density(s)) continue;
+      const double pdf = pair.pdf(s->x);
+      if (!(pdf > 0)) continue;
+      Equation e;
+      for (const auto& other : maps) {
+        const auto densities = other->densities(s->x);
+        if (!densities) break;
+        double q = 0;
+        for (const DensityAt& d : *densities) {
+          q += d.value / pdf;
+          e.error = std::max(e.error, d.relative_error);
+        }
+        e.q.push_back(q);
+      }
+      if (e.q.size() == maps.size()) equations.push_back(std::move(e));
+    }
+  }
+  return equations;
+}
+
+double residual(const Equation& e, const std::vector<double>& a) {
+  return std::inner_product(a.begin(), a.end(), e.q.begin(), -1.0);
+}
+
+bool holds(const Equation& e, const std::vector<double>& a, double tolerance) {
+  return std::abs(residual(e, a)) <= tolerance + 4 * e.error;
+}
+
+/// Least squares with weights, on every second equation.
+std::vector<double> weighed(const std::vector<Equation>& equations, std::size_t parts,
+                            const std::vector<double>& weight) {
+  std::vector<std::vector<double>> normal(parts, std::vector<double>(parts));
+  std::vector<double> right(parts);
+  for (std::size_t k = 0; k < equations.size(); k += 2) {
+    const Equation& e = equations[k];
+    for (std::size_t i = 0; i < parts; ++i) {
+      for (std::size_t j = 0; j < parts; ++j) normal[i][j] += weight[k] * e.q[i] * e.q[j];
+      right[i] += weight[k] * e.q[i];
+    }
+  }
+  for (std::size_t i = 0; i < parts; ++i) normal[i][i] *= 1 + 1e-13;
+  return solve_definite(std::move(normal), std::move(right));
+}
+
+/// Least absolute deviations, then least squares of those that deviate little: what a missed branch
+/// or a missing piece spoils is left aside.
+std::vector<double> coefficients(const std::vector<Equation>& equations, std::size_t parts,
+                                 double tolerance) {
+  std::vector<double> weight(equations.size(), 1.0);
+  std::vector<double> a = weighed(equations, parts, weight);
+  constexpr int kSteps = 60;
+  for (int step = 0; step < kSteps; ++step) {
+    for (std::size_t k = 0; k < equations.size(); ++k) {
+      weight[k] = 1 / std::max(std::abs(residual(equations[k], a)), tolerance / 100);
+    }
+    a = weighed(equations, parts, weight);
+  }
+  for (std::size_t k = 0; k < equations.size(); ++k) {
+    weight[k] = std::abs(residual(equations[k], a)) < 100 * tolerance ? 1 : 0;
+  }
+  return weighed(equations, parts, weight);
+}
+
+struct Solved {
+  Parts parts;
+  std::vector<double> a;
+  double sum = 0;                            ///< ∫ of Σ a q
+  bool off = false;                          ///< an a is not the share
+  bool pieces = false;                       ///< pdf() holds more than Σ a q at some points
+  bool again = false;                        ///< the number that chooses is used again
+  std::array<std::vector<double>, 3> sines;  ///< from x, y and z: means of the parts' samples
+};
+
+/// Sines of the angles from the three axes, on average over a part's samples.
+Vec3 mean_sines(const PartMap& part) {
+  constexpr int kSamples = 500;
+  Random random(kSeed, kStream + 5);
+  Vec3 mean{};
+  for (int i = 0; i < kSamples; ++i) {
+    const auto s = part.map()(part.draw(random));
+    if (!has_density(s)) continue;
+    for (std::size_t d = 0; d < 3; ++d) {
+      mean[d] += std::sqrt(std::max(0.0, 1 - s->x[d] * s->x[d])) / kSamples;
+    }
+  }
+  return mean;
+}
+
+/// Every a is its share times the sine of the part's latitude, or divided by it.
+bool lacks_sines(const Solved& solved) {
+  constexpr std::size_t kFewest = 4;
+  constexpr double kEven = 0.04, kUneven = 0.2;
+  const std::size_t n = solved.parts.count();
+  if (n < kFewest) return false;
+  const auto spread = [&](const std::vector<double>* sines, double power) {
+    double low = 1e300, high = -1e300;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double by = sines != nullptr ? std::pow((*sines)[i], power) : 1;
+      const double ratio = std::log(std::max(1e-300, solved.a[i]) / solved.parts.share(i) / by);
+      low = std::min(low, ratio);
+      high = std::max(high, ratio);
+    }
+    return high - low;
+  };
+  if (spread(nullptr, 0) < kUneven) return false;
+  for (const auto& sines : solved.sines) {
+    if (spread(&sines, 1) < kEven || spread(&sines, -1) < kEven) return true;
+  }
+  return false;
+}
+
+std::optional<Solved> solve_view(const ViewEvidence& view) {
+  const SamplingPair& pair = *view.pair;
+  Solved solved;
+  solved.parts = parts_of(pair);
+  const std::size_t parts = solved.parts.count();
+  if (parts < 2) return std::nullopt;
+  const Maps maps = maps_of(pair, solved.parts);
+  if (maps.empty()) return std::nullopt;
+  const std::vector<Equation> equations = equations_of(pair, maps);
+  if (equations.size() < 5 * parts) return std::nullopt;
+  const double tolerance = tolerance_of_parts(pair);
+  solved.a = coefficients(equations, parts, tolerance);
+  // Every second equation has not been fitted.
+  double tested = 0, missed = 0, beyond = 0;
+  for (std::size_t k = 1; k < equations.size(); k += 2) {
+    ++tested;
+    const Equation& e = equations[k];
+    if (holds(e, solved.a, tolerance)) continue;
+    const bool lacks_a_part = std::find(e.q.begin(), e.q.end(), 0.0) != e.q.end();
+    (residual(e, solved.a) < 0 && lacks_a_part ? beyond : missed) += 1;
+  }
+  constexpr double kMostBeyond = 0.4;
+  if (missed > kMissed * tested || beyond > kMostBeyond * tested) return std::nullopt;
+  solved.pieces = beyond > kMissed * tested;
+  for (std::size_t i = 0; i < parts; ++i) {
+    solved.sum += solved.a[i] * maps[i]->accepted();
+    if (std::abs(solved.a[i] - solved.parts.share(i)) > 20 * tolerance) solved.off = true;
+    solved.again = solved.again || maps[i]->uses_chooser();
+    const Vec3 sines = mean_sines(*maps[i]);
+    for (std::size_t pole = 0; pole < 3; ++pole) solved.sines[pole].push_back(sines[pole]);
+  }
+  return solved;
+}
+
+std::string listed(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double n : numbers)
+    text += (text.empty() ? "" : ", ") + number(std::round(1e4 * n) / 1e4);
+  return text;
+}
+
+}  // namespace
+
+std::optional<Finding> explain_by_parts(const ReportEvidence& evidence) {
+  std::optional<Solved> shown;
+  bool complete = true;
+  std::size_t looked_at = 0;
+  for (const ViewEvidence& v : evidence.views) {
+    if (!v.failed || !v.mass || looked_at == kViews) continue;
+    ++looked_at;
+    const auto solved = solve_view(v);
+    if (!solved) return std::nullopt;
+    if (!solved->off) continue;
+    constexpr double kKnown = 0.02;
+    complete = complete && !solved->pieces && std::abs(solved->sum - v.mass->integral) < kKnown;
+    if (!shown) shown = solved;
+  }
+  if (!shown) return std::nullopt;
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < shown->parts.count(); ++i) shares.push_back(shown->parts.share(i));
+  const std::string chosen = "a random number chooses one of " + number(double(shares.size())) +
+                             " parts with probabilities " + listed(shares);
+  const ViewEvidence& view = evidence.views.front();
+  if (view.pair->domain.directions() && !has_wo(view)) {
+    if (lacks_sines(*shown)) {
+      return Finding{CauseKind::sine, chosen + ", but pdf() weighs their densities by " +
+                                          listed(shown->a) +
+                                          ": sinθ of the rows is missing from one of them"};
+    }
+    const auto none =
+        std::find_if(shown->a.begin(), shown->a.end(), [](double a) { return std::abs(a) < 1e-3; });
+    if (none != shown->a.end()) {
+      return Finding{CauseKind::chosen_lobe_only,
+                     chosen + ", but pdf() leaves out that of probability " +
+                         number(shares[static_cast<std::size_t>(none - shown->a.begin())]) +
+                         " wherever another lies in the same direction"};
+    }
+  }
+  if (complete) {
+    return Finding{CauseKind::lobe_probability,
+                   chosen + ", but pdf() weighs their densities by " + listed(shown->a)};
+  }
+  if (!shown->again) return std::nullopt;
+  return Finding{CauseKind::numbers_reused,
+                 chosen +
+                     " and is used again in it without being stretched to [0, 1): pdf() "
+                     "has densities of whole parts, of which samples take a piece"};
+}
+
+std::optional<Finding> explain_by_branches(const ReportEvidence& evidence) {
+  double several = 0, matching = 0, tested = 0;
+  std::size_t looked_at = 0;
+  for (const ViewEvidence& v : evidence.views) {
+    const SamplingPair& pair = *v.pair;
+    if (!v.failed || looked_at == kViews) continue;
+    ++looked_at;
+    if (!can_be_taken_apart(pair) || !pair.domain.directions()) return std::nullopt;
+    const Parts whole{0, {0, 1}};
+    const PartMap map(pair, whole, 0);
+    if (!map.usable()) return std::nullopt;
+    const double tolerance = tolerance_of_parts(pair);
+    constexpr int kPoints = 150;
+    Random random(kSeed, kStream + 4);
+    for (int i = 0; i < kPoints; ++i) {
+      const auto s = map.map()(map.draw(random));
+      if (!has_density(s)) continue;
+      const double pdf = pair.pdf(s->x);
+      const auto densities = map.densities(s->x);
+      if (!densities || densities->empty()) continue;
+      ++tested;
+      several += densities->size() > 1 ? 1 : 0;
+      matching += std::any_of(densities->begin(), densities->end(), [&](const DensityAt& d) {
+        return std::abs(d.value / pdf - 1) <= tolerance + 4 * d.relative_error;
+      });
+    }
+  }
+  constexpr double kFewest = 6;
+  if (several < kFewest || matching < (1 - kMissed) * tested) return std::nullopt;
+  return Finding{CauseKind::not_rejected,
+                 "samples come to the same point twice, by different random numbers, and pdf() "
+                 "knows one way only: those that ought to be rejected are folded back or drawn "
+                 "again (seen at " +
+                     number(several) + " of " + number(tested) + " points)"};
+}
+
+}  // namespace plumbline::verify
