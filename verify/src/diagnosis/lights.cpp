@@ -81,13 +81,20 @@ std::optional<SeenSphere> seen_sphere(const ViewEvidence& view) {
   constexpr int kPerSide = 400;
   if (!view.pair->sample || view.pair->numbers > 2) return std::nullopt;
   std::vector<Vec3> points;
+  const auto add = [&](double u, double v) {
+    const auto s = view.pair->sample({u, v, 0});
+    if (s && s->mass == 0 && is_finite(s->x)) points.push_back(s->x);
+  };
+  const auto middle = [](int i) { return (i + 0.5) / kPerSide; };
+  for (int i = 0; i < kPerSide * kPerSide; ++i) add(middle(i % kPerSide), middle(i / kPerSide));
   Vec3 mean{};
-  for (int i = 0; i < kPerSide * kPerSide; ++i) {
-    const auto s = view.pair->sample(
-        {(i % kPerSide + 0.5) / kPerSide, (static_cast<int>(i / kPerSide) + 0.5) / kPerSide, 0});
-    if (!s || s->mass > 0 || !is_finite(s->x)) continue;
-    points.push_back(s->x);
-    mean = sum(mean, s->x);
+  for (const Vec3& x : points) mean = sum(mean, x);
+  // The border may lie at the end of a number.
+  for (int i = 0; i < kPerSide; ++i) {
+    for (const double end : {1e-12, 1 - 1e-12}) {
+      add(end, middle(i));
+      add(middle(i), end);
+    }
   }
   if (points.size() < 1000 || !(length(mean) > 0)) return std::nullopt;
   SeenSphere sphere{normalized(mean), 0};
@@ -123,7 +130,9 @@ void add_spherical_light(std::vector<Hypothesis>& list, const ReportEvidence& ev
     Hypothesis h;
     h.kind = CauseKind::distance_or_area;
     h.complexity = 2;
-    h.starts = {{0.0, std::log(seen->sine) + 1e-4, 0.0, 0.0}};
+    for (const double beyond : {1e-12, 1e-8, 1e-4}) {
+      h.starts.push_back({0.0, std::log(seen->sine) + beyond, 0.0, 0.0});
+    }
     h.prediction = [f, axis = seen->axis, right, up](const Place& p, std::span<const double> n) {
       const Vec3 turned = normalized(sum(axis, sum(scaled(right, n[2]), scaled(up, n[3]))));
       const SeenSphere sphere{turned, std::min(1.0, std::exp(n[1]))};

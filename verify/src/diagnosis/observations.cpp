@@ -279,7 +279,11 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
     }
   }
   constexpr double kMostUnknown = 0.85;
-  if (unknown_points > kMostUnknown * exact) return fit;
+  constexpr double kFewestKnown = 50;
+  if (unknown_points > 0 &&
+      (unknown_points > kMostUnknown * exact || exact - unknown_points < kFewestKnown)) {
+    return fit;
+  }
   if (o.judge_strays) {
     double explained = 0;
     for (const Vec3& x : o.view->strays) {

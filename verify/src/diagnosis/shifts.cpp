@@ -91,18 +91,21 @@ void add_shifted_points(std::vector<Hypothesis>& list, const Domain& domain, con
   }
 }
 
+/// Counts alone cannot tell what is moved a little from what is scaled.
+bool followed_exactly(const ReportEvidence& evidence) {
+  constexpr std::size_t kFewest = 100;
+  return std::any_of(evidence.views.begin(), evidence.views.end(), [](const ViewEvidence& v) {
+    return v.failed && std::any_of(v.ratios.begin(), v.ratios.end(), [](const RatioSeries& s) {
+             return s.kind == RatioKind::density_over_pdf && s.points.size() >= kFewest;
+           });
+  });
+}
+
 /// A density on a line that is another one's, moved by any length, with another mass or not.
 void add_moved_on_line(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
                        const Blame& blame, const Asked& ask) {
-  // Counts alone cannot tell what is moved from what is scaled.
-  constexpr std::size_t kFewest = 100;
   double samples = 0, expected = 0, of_samples = 0, of_expected = 0;
   for (const ViewEvidence& v : evidence.views) {
-    if (std::none_of(v.ratios.begin(), v.ratios.end(), [](const RatioSeries& s) {
-          return s.kind == RatioKind::density_over_pdf && s.points.size() >= kFewest;
-        })) {
-      return;
-    }
     for (const BinSeen& b : v.bins) {
       for (std::size_t i = 0; i < b.nodes.size(); ++i) {
         of_samples += b.observed * b.shares[i] * b.nodes[i][0];
@@ -225,6 +228,7 @@ void add_shifted_half_vectors(std::vector<Hypothesis>& list, const Blame& blame)
       h.kind = CauseKind::shifted;
       h.complexity = 12;
       h.prediction = [=](const Place& p, std::span<const double>) {
+        if (transmits(p.wo, p.x)) return 0.0;
         const Vec3 here = half_vector_of(p.wo, p.x, 1);
         const auto there = moved_on_map(here, 2, 2 * std::numbers::pi * way.turns * shift,
                                         std::numbers::pi / 2 * way.quarter_turns * shift);
@@ -253,7 +257,8 @@ std::vector<Hypothesis> shift_hypotheses(const ReportEvidence& evidence, const B
   const Asked ask = asked(of_value);
   if (domain.dimension() == 0) return list;
   if (has_wo(view)) {
-    if (view.bsdf != nullptr && !of_value) add_shifted_half_vectors(list, blame);
+    if (view.bsdf != nullptr && !of_value && followed_exactly(evidence))
+      add_shifted_half_vectors(list, blame);
     return list;
   }
   if (domain.directions()) {
@@ -262,7 +267,8 @@ std::vector<Hypothesis> shift_hypotheses(const ReportEvidence& evidence, const B
     return list;
   }
   add_shifted_points(list, domain, blame, ask);
-  if (domain.dimension() == 1) add_moved_on_line(list, evidence, blame, ask);
+  if (domain.dimension() == 1 && followed_exactly(evidence))
+    add_moved_on_line(list, evidence, blame, ask);
   return list;
 }
 
