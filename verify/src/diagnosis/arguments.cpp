@@ -254,10 +254,9 @@ std::pair<Vec3, Vec3> mean_directions(const ViewEvidence& view) {
 /// The whole density turned around any axis: samples around one axis, the pdf around another.
 void add_turned_as_a_whole(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
                            const Blame& blame, const Asked& ask) {
-  auto [from, to] = mean_directions(evidence.views.front());
-  if (!(length(from) > 0) || !(length(to) > 0)) return;
-  from = normalized(from);
-  to = normalized(to);
+  const std::pair<Vec3, Vec3> means = mean_directions(evidence.views.front());
+  if (!(length(means.first) > 0) || !(length(means.second) > 0)) return;
+  const Vec3 from = normalized(means.first), to = normalized(means.second);
   const Vec3 normal = cross(from, to);
   constexpr double kApart = 0.02;
   if (!(length(normal) > kApart)) return;
