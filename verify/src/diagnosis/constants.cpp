@@ -30,7 +30,8 @@ bool draws_again(const Observations& observations, const Numbers& numbers, doubl
   bool lacks = false;
   for (std::size_t v = 0; v < numbers.size(); ++v) {
     const ViewEvidence& view = *observations.views()[v].view;
-    if (!view.mass || view.mass->rejected > 1e-6 || view.stray_share > 0) return false;
+    if (!view.mass || view.mass->rejected > 1e-6 || view.mass->atoms > 0) return false;
+    if (view.stray_share > 0) return false;
     if (numbers[v][0] < -error) return false;
     lacks = lacks || numbers[v][0] > 2 * error;
   }

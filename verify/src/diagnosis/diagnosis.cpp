@@ -202,7 +202,7 @@ class Diagnosis {
     }
     double never = 0;
     for (const ViewEvidence& v : evidence_.views) never = std::max(never, share_never_sampled(v));
-    if (never > 0.02 && excess > kCertain && map_jumps(evidence_.views.front())) {
+    if (never > 0.02 && excess > kCertain && choice_is_used_again(evidence_.views.front())) {
       return Cause{CauseKind::numbers_reused,
                    "no sample falls where " + number(std::round(1e3 * never) / 10) +
                        " % of pdf() is, and more than expected elsewhere: a number that has chosen "

@@ -47,9 +47,6 @@ bool samples_break_a_symmetry(const ReportEvidence& evidence);
 /// Share of pdf() in places where no sample falls though many are expected: whole cells of a grid.
 double share_never_sampled(const ViewEvidence& view);
 
-/// The map from numbers to samples jumps: something is chosen by one of the numbers.
-bool map_jumps(const ViewEvidence& view);
-
 /// The number that the map jumps in moves the sample between the jumps as well.
 bool choice_is_used_again(const ViewEvidence& view);
 

@@ -258,6 +258,11 @@ Hypothesis hypothesis_of(std::vector<std::pair<Factor, double>> terms, bool with
                          const Blame& blame, double error) {
   Hypothesis h;
   h.kind = terms.front().first.kind;
+  // A cosine that is mistaken for another of the half vector's.
+  for (const auto& [f, power] : terms) {
+    if (f.kind == CauseKind::half_vector_jacobian) h.kind = f.kind;
+    h.needs_exact = h.needs_exact || (with_constant && std::abs(power) == 0.5);
+  }
   std::string formula, remark;
   for (const auto& [f, power] : terms) {
     h.complexity += f.rank + (std::abs(power) == 1 ? 0 : 2);

@@ -50,7 +50,9 @@ std::optional<Explanation> try_one(const Observations& observations, const Hypot
 std::vector<Explanation> explain(const Observations& observations,
                                  const std::vector<Hypothesis>& hypotheses) {
   std::vector<Explanation> admissible;
+  constexpr std::size_t kFewestExact = 100;
   for (const Hypothesis& h : hypotheses) {
+    if (h.needs_exact && observations.exact() < kFewestExact) continue;
     if (auto e = try_one(observations, h)) admissible.push_back(std::move(*e));
   }
   std::stable_sort(admissible.begin(), admissible.end(),

@@ -21,6 +21,9 @@ struct Hypothesis {
   std::vector<std::vector<double>> starts = {};
   bool per_view = false;  ///< the free numbers are others in each view
 
+  /// Counts alone do not tell it from others: it is judged where exact ratios are known.
+  bool needs_exact = false;
+
   /// How far-fetched it is among those with as many free numbers; 0: the simplest.
   double complexity = 0;
 

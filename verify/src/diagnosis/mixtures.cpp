@@ -115,6 +115,7 @@ void add_companion_probability(std::vector<Hypothesis>& list, const Companion& c
       h.kind = CauseKind::lobe_probability;
       h.complexity = 4 + form.rank + c.rank;
       h.per_view = by_view;
+      h.needs_exact = by_view || c.rank > 0;
       h.starts = {{-0.5}, {0.5}};
       h.prediction = [density = c.density, own = form.own, other = form.other](
                          const Place& p, std::span<const double> n) {

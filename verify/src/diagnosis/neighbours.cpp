@@ -227,17 +227,9 @@ double share_never_sampled(const ViewEvidence& view) {
   return total > 0 ? never / total : 0;
 }
 
-namespace {
-
-struct Jumps {
-  bool any = false;
-  bool moves_between = false;  ///< in a number that has jumps, samples move between them as well
-};
-
-Jumps jumps_of(const ViewEvidence& view) {
+bool choice_is_used_again(const ViewEvidence& view) {
   constexpr int kSteps = 4096;
-  Jumps jumps;
-  if (view.pair->draw || !view.pair->sample) return jumps;
+  if (view.pair->draw || !view.pair->sample) return false;
   for (int d = 0; d < view.pair->numbers; ++d) {
     std::vector<double> steps;
     std::optional<SampleRecord> last;
@@ -256,17 +248,10 @@ Jumps jumps_of(const ViewEvidence& view) {
     const double middle = sorted[sorted.size() / 2];
     for (std::size_t i = steps.size() / 20; i + steps.size() / 20 < steps.size(); ++i) {
       if (!(steps[i] > 100 * middle && steps[i] > 0.02)) continue;
-      jumps.any = true;
-      jumps.moves_between = jumps.moves_between || middle > 1e-9;
+      if (middle > 1e-9) return true;
     }
   }
-  return jumps;
+  return false;
 }
-
-}  // namespace
-
-bool map_jumps(const ViewEvidence& view) { return jumps_of(view).any; }
-
-bool choice_is_used_again(const ViewEvidence& view) { return jumps_of(view).moves_between; }
 
 }  // namespace plumbline::verify

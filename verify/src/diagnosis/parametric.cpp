@@ -129,6 +129,12 @@ void add_roughness(std::vector<Hypothesis>& list, const Blame& blame) {
             const auto [right, wrong] = two(n);
             return p.base * d(p, std::exp(right)) / d(p, std::exp(wrong));
           };
+          // Two that hardly differ are a sign of something else.
+          h.charge = [two](const auto& numbers) -> std::optional<double> {
+            constexpr double kApart = 0.01;
+            const auto [right, wrong] = two(numbers.front());
+            return std::abs(right - wrong) > kApart ? std::optional(0.0) : std::nullopt;
+          };
           h.words = [two, name = std::string(f.name), blame](std::span<const double> n) {
             const auto [right, wrong] = two(n);
             return "the roughness in " + blame.function + " is another: " + alpha(wrong) +

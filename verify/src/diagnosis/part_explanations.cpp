@@ -119,6 +119,7 @@ struct Solved {
   bool off = false;                          ///< an a is not the share
   bool pieces = false;                       ///< pdf() holds more than Σ a q at some points
   bool again = false;                        ///< the number that chooses is used again
+  bool apart = false;                        ///< the parts hardly overlap: lights, texels
   std::array<std::vector<double>, 3> sines;  ///< from x, y and z: means of the parts' samples
 };
 
@@ -187,6 +188,10 @@ std::optional<Solved> solve_view(const ViewEvidence& view) {
   }
   constexpr double kMostBeyond = 0.4;
   if (missed > kMissed * tested || beyond > kMostBeyond * tested) return std::nullopt;
+  const auto overlaps = std::count_if(equations.begin(), equations.end(), [](const Equation& e) {
+    return std::count(e.q.begin(), e.q.end(), 0.0) + 1 < static_cast<std::ptrdiff_t>(e.q.size());
+  });
+  solved.apart = 2 * static_cast<std::size_t>(overlaps) < equations.size();
   solved.pieces = beyond > 2 * kMissed * tested;
   for (std::size_t i = 0; i < parts; ++i) {
     solved.sum += solved.a[i] * maps[i]->accepted();
@@ -218,7 +223,8 @@ std::optional<Finding> explain_by_parts(const ReportEvidence& evidence) {
     if (!solved) return std::nullopt;
     if (!solved->off) continue;
     constexpr double kKnown = 0.02;
-    complete = complete && !solved->pieces && std::abs(solved->sum - v.mass->integral) < kKnown;
+    complete = complete && !solved->pieces &&
+               std::abs(solved->sum - v.mass->integral) < kKnown * std::max(1.0, solved->sum);
     if (!shown) shown = solved;
   }
   if (!shown) return std::nullopt;
@@ -243,8 +249,9 @@ std::optional<Finding> explain_by_parts(const ReportEvidence& evidence) {
     }
   }
   if (complete) {
-    return Finding{CauseKind::lobe_probability,
-                   chosen + ", but pdf() weighs their densities by " + listed(shown->a)};
+    return Finding{
+        shown->apart && !has_wo(view) ? CauseKind::choice_probability : CauseKind::lobe_probability,
+        chosen + ", but pdf() weighs their densities by " + listed(shown->a)};
   }
   if (!shown->again) return std::nullopt;
   return Finding{CauseKind::numbers_reused,

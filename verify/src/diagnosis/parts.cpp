@@ -150,7 +150,7 @@ std::optional<std::vector<DensityAt>> PartMap::densities(const Vec3& x) const {
 }
 
 double PartMap::accepted() const {
-  constexpr int kTries = 2000;
+  constexpr int kTries = 10'000;
   Random random(kSeed, kStream + 1);
   int accepted = 0;
   for (int i = 0; i < kTries; ++i) accepted += has_density(map_(draw(random))) ? 1 : 0;

@@ -91,16 +91,6 @@ void add_shifted_points(std::vector<Hypothesis>& list, const Domain& domain, con
   }
 }
 
-/// Counts alone cannot tell what is moved a little from what is scaled.
-bool followed_exactly(const ReportEvidence& evidence) {
-  constexpr std::size_t kFewest = 100;
-  return std::any_of(evidence.views.begin(), evidence.views.end(), [](const ViewEvidence& v) {
-    return v.failed && std::any_of(v.ratios.begin(), v.ratios.end(), [](const RatioSeries& s) {
-             return s.kind == RatioKind::density_over_pdf && s.points.size() >= kFewest;
-           });
-  });
-}
-
 /// A density on a line that is another one's, moved by any length, with another mass or not.
 void add_moved_on_line(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
                        const Blame& blame, const Asked& ask) {
@@ -120,6 +110,7 @@ void add_moved_on_line(std::vector<Hypothesis>& list, const ReportEvidence& evid
   for (const bool scaled_too : {false, true}) {
     Hypothesis h;
     h.kind = CauseKind::shifted;
+    h.needs_exact = true;
     h.complexity = 5;
     for (const double share : {1.0, 0.5, 2.0, 4.0, -1.0}) {
       h.starts.push_back({share * apart});
@@ -226,6 +217,7 @@ void add_shifted_half_vectors(std::vector<Hypothesis>& list, const Blame& blame)
     for (const Way& way : ways) {
       Hypothesis h;
       h.kind = CauseKind::shifted;
+      h.needs_exact = true;
       h.complexity = 12;
       h.prediction = [=](const Place& p, std::span<const double>) {
         if (transmits(p.wo, p.x)) return 0.0;
@@ -257,8 +249,7 @@ std::vector<Hypothesis> shift_hypotheses(const ReportEvidence& evidence, const B
   const Asked ask = asked(of_value);
   if (domain.dimension() == 0) return list;
   if (has_wo(view)) {
-    if (view.bsdf != nullptr && !of_value && followed_exactly(evidence))
-      add_shifted_half_vectors(list, blame);
+    if (view.bsdf != nullptr && !of_value) add_shifted_half_vectors(list, blame);
     return list;
   }
   if (domain.directions()) {
@@ -267,8 +258,7 @@ std::vector<Hypothesis> shift_hypotheses(const ReportEvidence& evidence, const B
     return list;
   }
   add_shifted_points(list, domain, blame, ask);
-  if (domain.dimension() == 1 && followed_exactly(evidence))
-    add_moved_on_line(list, evidence, blame, ask);
+  if (domain.dimension() == 1) add_moved_on_line(list, evidence, blame, ask);
   return list;
 }
 
