@@ -25,11 +25,28 @@ enum class Stream : std::uint64_t {
   probes = 13,        ///< uniform numbers that show whether anything is rejected
   energy_pilot = 19,  ///< samples that shape the cells of an albedo
   own_nodes = 20,     ///< samples at which an integral's fit is corrected
-  nodes = 21          ///< random points at which it is
+  nodes = 21,         ///< random points at which it is
+
+  // Of a diagnosis, which has one seed: the same report gets the same cause.
+  asked = 40,           ///< samples that are asked about twice, or looked at as they are
+  asked_between = 41,   ///< what is asked between two times
+  groups = 42,          ///< samples that lie next to each other
+  sides = 43,           ///< samples left and right of the plane of incidence
+  empty_cells = 44,     ///< samples that show where none fall
+  part_points = 47,     ///< points of a part, for its equations
+  part_accepted = 48,   ///< numbers that show what a part rejects
+  part_numbers = 49,    ///< numbers that show which ones a part uses
+  part_lines = 50,      ///< lines on which a number jumps
+  branch_points = 51,   ///< points that several numbers may lead to
+  part_latitudes = 52,  ///< samples that show where a part lies
+  mean_direction = 53   ///< samples of a generator
 };
 
 inline Random random_for(std::uint64_t seed, Stream stream) {
   return Random(seed, static_cast<std::uint64_t>(stream));
 }
+
+/// For a diagnosis.
+inline Random random_for(Stream stream) { return random_for(0x5eed, stream); }
 
 }  // namespace plumbline::verify

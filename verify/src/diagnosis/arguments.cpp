@@ -6,6 +6,7 @@
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
 #include "diagnosis/shifts.h"
+#include "streams.h"
 #include "text.h"
 
 namespace plumbline::verify {
@@ -235,14 +236,14 @@ std::pair<Vec3, Vec3> mean_directions(const ViewEvidence& view) {
   constexpr int kPerSide = 500;
   const SamplingPair& pair = *view.pair;
   const Chart& chart = pair.domain.chart();
-  Random random(0x5eed, 48);
+  Random random = random_for(Stream::mean_direction);
   Vec3 of_samples{}, of_pdf{};
   for (int i = 0; i < kPerSide; ++i) {
     for (int j = 0; j < kPerSide; ++j) {
       const Point2 p{(i + 0.5) / kPerSide, (j + 0.5) / kPerSide};
       const bool map = pair.sample && pair.numbers <= 2;
       const auto s = map ? pair.sample({p[0], p[1], 0}) : pair.next(random);
-      if (s && s->mass == 0 && is_finite(s->x)) of_samples = sum(of_samples, s->x);
+      if (has_density(s)) of_samples = sum(of_samples, s->x);
       const Vec3 x = chart.from_square(p);
       const double mass = pair.pdf(x) * chart.element(p);
       if (std::isfinite(mass)) of_pdf = sum(of_pdf, scaled(x, mass));
@@ -338,6 +339,8 @@ std::vector<Hypothesis> argument_hypotheses(const ReportEvidence& evidence, cons
   } else {
     add_mirrored_points(list, domain, blame, ask);
   }
+  std::vector<Hypothesis> shifts = shift_hypotheses(evidence, blame, of_value);
+  std::move(shifts.begin(), shifts.end(), std::back_inserter(list));
   return list;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/evidence.h"
 
@@ -38,6 +39,11 @@ inline double f_at(const ViewEvidence& view, const Vec3& wo, const Vec3& wi) {
 
 inline bool is_finite(const Vec3& x) {
   return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+}
+
+/// A sample that is neither rejected nor an atom, nor at a point that is none.
+inline bool has_density(const std::optional<SampleRecord>& sample) {
+  return sample && sample->mass == 0 && is_finite(sample->x);
 }
 
 }  // namespace plumbline::verify

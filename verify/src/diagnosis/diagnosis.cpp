@@ -7,7 +7,6 @@
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
 #include "diagnosis/part_explanations.h"
-#include "diagnosis/shifts.h"
 #include "diagnosis/strays.h"
 #include "diagnosis/values.h"
 #include "text.h"
@@ -28,7 +27,6 @@ std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Bla
   add(constant_hypotheses(evidence, blame, observations));
   add(factor_hypotheses(evidence, blame, observations));
   add(argument_hypotheses(evidence, blame, of_value));
-  add(shift_hypotheses(evidence, blame, of_value));
   add(parametric_hypotheses(evidence, blame, observations));
   add(light_hypotheses(evidence, blame));
   if (!of_value) add(mixture_hypotheses(evidence, blame, observations));
@@ -233,10 +231,7 @@ class Diagnosis {
     }
     Cause cause = from(explain(inverted, factors));
     if (cause.kind == CauseKind::none) {
-      const Blame itself{"the pdf in the record", "it"};
-      auto others = argument_hypotheses(evidence_, itself, false);
-      auto shifts = shift_hypotheses(evidence_, itself, false);
-      std::move(shifts.begin(), shifts.end(), std::back_inserter(others));
+      const auto others = argument_hypotheses(evidence_, {"the pdf in the record", "it"}, false);
       cause = from(explain(record, others));
     }
     const std::string right = "the pdf in the record is wrong: samples are as dense as pdf() says";

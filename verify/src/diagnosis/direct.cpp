@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnosis/ask.h"
+#include "streams.h"
 #include "text.h"
 #include "vec3.h"
 
@@ -15,8 +16,6 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr std::uint64_t kSeed = 0x5eed;
-constexpr std::uint64_t kStream = 40;
 constexpr std::size_t kViewsAsked = 4;
 
 /// Failing views first: they show what went wrong.
@@ -31,7 +30,7 @@ std::vector<const ViewEvidence*> views_to_ask(const ReportEvidence& evidence) {
 }
 
 std::vector<SampleRecord> draw_samples(const ViewEvidence& view, int count) {
-  Random random(kSeed, kStream);
+  Random random = random_for(Stream::asked);
   std::vector<SampleRecord> samples;
   for (int i = 0; i < count; ++i) {
     const auto s = view.pair->next(random);
@@ -53,7 +52,7 @@ std::optional<Finding> find_stale_state(const ReportEvidence& evidence) {
   std::vector<std::vector<SampleRecord>> samples;
   std::vector<std::vector<std::array<double, 2>>> first;
   for (const ViewEvidence* v : views) {
-    Random random(kSeed, kStream);
+    Random random = random_for(Stream::asked);
     samples.emplace_back();
     first.emplace_back();
     for (int i = 0; i < kSamples; ++i) {
@@ -79,7 +78,7 @@ std::optional<Finding> find_stale_state(const ReportEvidence& evidence) {
   }
   for (const ViewEvidence* v : views) {
     if (v->pair->draw || !v->pair->sample) continue;
-    Random random(kSeed, kStream + 1);
+    Random random = random_for(Stream::asked_between);
     for (int i = 0; i < kSamples; ++i) {
       const Uniforms u{random.uniform(), random.uniform(), random.uniform()};
       const Uniforms w{random.uniform(), random.uniform(), random.uniform()};
@@ -268,7 +267,7 @@ std::optional<Finding> find_not_finite(const ReportEvidence& evidence) {
   constexpr int kSamples = 4096;
   const auto bad = [](double x) { return !std::isfinite(x) || x < 0; };
   for (const ViewEvidence* v : views_to_ask(evidence)) {
-    Random random(kSeed, kStream);
+    Random random = random_for(Stream::asked);
     for (int i = 0; i < kSamples; ++i) {
       const auto s = v->pair->next(random);
       if (s && !is_finite(s->x)) {
@@ -305,7 +304,7 @@ std::optional<Finding> find_points_not_finite(const ReportEvidence& evidence) {
   constexpr double kMany = 0.05;
   for (const ViewEvidence& v : evidence.views) {
     if (!v.failed) continue;
-    Random random(kSeed, kStream);
+    Random random = random_for(Stream::asked);
     double bad = 0;
     for (int i = 0; i < kSamples; ++i) {
       const auto s = v.pair->next(random);

@@ -83,7 +83,7 @@ std::optional<SeenSphere> seen_sphere(const ViewEvidence& view) {
   std::vector<Vec3> points;
   const auto add = [&](double u, double v) {
     const auto s = view.pair->sample({u, v, 0});
-    if (s && s->mass == 0 && is_finite(s->x)) points.push_back(s->x);
+    if (has_density(s)) points.push_back(s->x);
   };
   const auto middle = [](int i) { return (i + 0.5) / kPerSide; };
   for (int i = 0; i < kPerSide * kPerSide; ++i) add(middle(i % kPerSide), middle(i / kPerSide));

@@ -6,14 +6,13 @@
 
 #include "diagnosis/ask.h"
 #include "diagnosis/direct.h"
+#include "streams.h"
 #include "vec3.h"
 
 namespace plumbline::verify {
 
 namespace {
 
-constexpr std::uint64_t kSeed = 0x5eed;
-constexpr std::uint64_t kStream = 42;
 constexpr std::size_t kGroup = 8;
 
 struct Valued {
@@ -24,11 +23,11 @@ struct Valued {
 
 std::vector<Valued> valued_samples(const ViewEvidence& view, bool of_weight) {
   constexpr int kSamples = 12'000;
-  Random random(kSeed, kStream);
+  Random random = random_for(Stream::groups);
   std::vector<Valued> out;
   for (int i = 0; i < kSamples; ++i) {
     const auto s = view.pair->next(random);
-    if (!s || s->mass > 0 || !is_finite(s->x)) continue;
+    if (!has_density(s)) continue;
     const double pdf = pdf_at(view, s->x);
     double ratio = s->pdf.value_or(kNotApplicable) / pdf;
     if (of_weight) {
@@ -163,11 +162,11 @@ bool samples_break_a_symmetry(const ReportEvidence& evidence) {
   for (const ViewEvidence& v : evidence.views) {
     if (v.bsdf == nullptr || !has_wo(v)) continue;
     if (std::hypot((*v.wo)[0], (*v.wo)[1]) < 0.05) continue;
-    Random random(kSeed, kStream + 1);
+    Random random = random_for(Stream::sides);
     std::vector<Vec3> points;
     for (int i = 0; i < kSamples; ++i) {
       const auto s = v.pair->next(random);
-      if (s && s->mass == 0 && is_finite(s->x)) points.push_back(s->x);
+      if (has_density(s)) points.push_back(s->x);
     }
     if (points.size() < 1000) continue;
     if (!is_symmetric(v, {points.begin(), points.begin() + 200})) return false;
@@ -200,10 +199,10 @@ double share_never_sampled(const ViewEvidence& view) {
     return std::min(kCells - 1, static_cast<std::size_t>(c * kCells));
   };
   std::vector<int> seen(kCells * kCells);
-  Random random(kSeed, kStream + 2);
+  Random random = random_for(Stream::empty_cells);
   for (int i = 0; i < kSamples; ++i) {
     const auto s = view.pair->next(random);
-    if (!s || s->mass > 0 || !is_finite(s->x)) continue;
+    if (!has_density(s)) continue;
     const Point2 p = chart.to_square(s->x);
     ++seen[cell_of(p[0]) * kCells + (domain.dimension() == 1 ? 0 : cell_of(p[1]))];
   }
@@ -247,8 +246,7 @@ bool choice_is_used_again(const ViewEvidence& view) {
     std::sort(sorted.begin(), sorted.end());
     const double middle = sorted[sorted.size() / 2];
     for (std::size_t i = steps.size() / 20; i + steps.size() / 20 < steps.size(); ++i) {
-      if (!(steps[i] > 100 * middle && steps[i] > 0.02)) continue;
-      if (middle > 1e-9) return true;
+      if (middle > 1e-9 && steps[i] > 100 * middle && steps[i] > 0.02) return true;
     }
   }
   return false;

@@ -1,7 +1,6 @@
 #include "diagnosis/part_explanations.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -10,13 +9,13 @@
 #include "diagnosis/ask.h"
 #include "diagnosis/fit.h"
 #include "diagnosis/parts.h"
+#include "streams.h"
 #include "text.h"
 
 namespace plumbline::verify {
 
 namespace {
 
-constexpr std::uint64_t kSeed = 0x5eed, kStream = 47;
 // Views that are taken apart, and points of each part.
 constexpr std::size_t kViews = 2;
 constexpr int kPointsPerPart = 16;
@@ -42,7 +41,7 @@ struct Equation {
 
 std::vector<Equation> equations_of(const SamplingPair& pair, const Maps& maps) {
   std::vector<Equation> equations;
-  Random random(kSeed, kStream);
+  Random random = random_for(Stream::part_points);
   for (const auto& part : maps) {
     for (int i = 0; i < kPointsPerPart; ++i) {
       const auto s = part->map()(part->draw(random));
@@ -115,18 +114,18 @@ std::vector<double> coefficients(const std::vector<Equation>& equations, std::si
 struct Solved {
   Parts parts;
   std::vector<double> a;
-  double sum = 0;                            ///< ∫ of Σ a q
-  bool off = false;                          ///< an a is not the share
-  bool pieces = false;                       ///< pdf() holds more than Σ a q at some points
-  bool again = false;                        ///< the number that chooses is used again
-  bool apart = false;                        ///< the parts hardly overlap: lights, texels
-  std::array<std::vector<double>, 3> sines;  ///< from x, y and z: means of the parts' samples
+  double sum = 0;         ///< ∫ of Σ a q
+  bool off = false;       ///< an a is not the share
+  bool pieces = false;    ///< pdf() holds more than Σ a q at some points
+  bool again = false;     ///< the number that chooses is used again
+  bool apart = false;     ///< the parts hardly overlap: lights, texels
+  bool by_sines = false;  ///< every a is its share times a sine, or divided by it
 };
 
 /// Sines of the angles from the three axes, on average over a part's samples.
 Vec3 mean_sines(const PartMap& part) {
   constexpr int kSamples = 500;
-  Random random(kSeed, kStream + 5);
+  Random random = random_for(Stream::part_latitudes);
   Vec3 mean{};
   for (int i = 0; i < kSamples; ++i) {
     const auto s = part.map()(part.draw(random));
@@ -139,24 +138,26 @@ Vec3 mean_sines(const PartMap& part) {
 }
 
 /// Every a is its share times the sine of the part's latitude, or divided by it.
-bool lacks_sines(const Solved& solved) {
+bool lacks_sines(const Solved& solved, const Maps& maps) {
   constexpr std::size_t kFewest = 4;
   constexpr double kEven = 0.04, kUneven = 0.2;
   const std::size_t n = solved.parts.count();
   if (n < kFewest) return false;
-  const auto spread = [&](const std::vector<double>* sines, double power) {
+  std::vector<Vec3> sines;
+  for (const auto& part : maps) sines.push_back(mean_sines(*part));
+  const auto spread = [&](std::size_t pole, double power) {
     double low = 1e300, high = -1e300;
     for (std::size_t i = 0; i < n; ++i) {
-      const double by = sines != nullptr ? std::pow((*sines)[i], power) : 1;
+      const double by = std::pow(sines[i][pole], power);
       const double ratio = std::log(std::max(1e-300, solved.a[i]) / solved.parts.share(i) / by);
       low = std::min(low, ratio);
       high = std::max(high, ratio);
     }
     return high - low;
   };
-  if (spread(nullptr, 0) < kUneven) return false;
-  for (const auto& sines : solved.sines) {
-    if (spread(&sines, 1) < kEven || spread(&sines, -1) < kEven) return true;
+  if (spread(0, 0) < kUneven) return false;
+  for (std::size_t pole = 0; pole < 3; ++pole) {
+    if (spread(pole, 1) < kEven || spread(pole, -1) < kEven) return true;
   }
   return false;
 }
@@ -197,9 +198,8 @@ std::optional<Solved> solve_view(const ViewEvidence& view) {
     solved.sum += solved.a[i] * maps[i]->accepted();
     if (std::abs(solved.a[i] - solved.parts.share(i)) > 20 * tolerance) solved.off = true;
     solved.again = solved.again || maps[i]->uses_chooser();
-    const Vec3 sines = mean_sines(*maps[i]);
-    for (std::size_t pole = 0; pole < 3; ++pole) solved.sines[pole].push_back(sines[pole]);
   }
+  solved.by_sines = pair.domain.directions() && !has_wo(view) && lacks_sines(solved, maps);
   return solved;
 }
 
@@ -234,7 +234,7 @@ std::optional<Finding> explain_by_parts(const ReportEvidence& evidence) {
                              " parts with probabilities " + listed(shares);
   const ViewEvidence& view = evidence.views.front();
   if (view.pair->domain.directions() && !has_wo(view)) {
-    if (lacks_sines(*shown)) {
+    if (shown->by_sines) {
       return Finding{CauseKind::sine, chosen + ", but pdf() weighs their densities by " +
                                           listed(shown->a) +
                                           ": sinθ of the rows is missing from one of them"};
@@ -273,7 +273,7 @@ std::optional<Finding> explain_by_branches(const ReportEvidence& evidence) {
     if (!map.usable()) return std::nullopt;
     const double tolerance = tolerance_of_parts(pair);
     constexpr int kPoints = 150;
-    Random random(kSeed, kStream + 4);
+    Random random = random_for(Stream::branch_points);
     for (int i = 0; i < kPoints; ++i) {
       const auto s = map.map()(map.draw(random));
       if (!has_density(s)) continue;

@@ -5,13 +5,13 @@
 #include <numeric>
 
 #include "diagnosis/ask.h"
+#include "streams.h"
 #include "vec3.h"
 
 namespace plumbline::verify {
 
 namespace {
 
-constexpr std::uint64_t kSeed = 0x5eed, kStream = 47;
 constexpr std::size_t kMostParts = 12;
 
 double distance(const std::optional<SampleRecord>& a, const std::optional<SampleRecord>& b) {
@@ -81,10 +81,6 @@ class Line {
 
 }  // namespace
 
-bool has_density(const std::optional<SampleRecord>& sample) {
-  return sample && sample->mass == 0 && is_finite(sample->x);
-}
-
 double tolerance_of_parts(const SamplingPair& pair) { return pair.epsilon > 0x1p-40 ? 1e-2 : 1e-4; }
 
 bool can_be_taken_apart(const SamplingPair& pair) {
@@ -98,7 +94,7 @@ Parts parts_of(const SamplingPair& pair) {
   constexpr double kSame = 4e-6;
   Parts best;
   for (std::size_t n = 0; n < static_cast<std::size_t>(pair.numbers); ++n) {
-    Random random(kSeed, kStream + 3);
+    Random random = random_for(Stream::part_lines);
     std::vector<double> all;
     for (std::size_t line = 0; line < kLines; ++line) {
       const Uniforms others{random.uniform(), random.uniform(), random.uniform()};
@@ -151,7 +147,7 @@ std::optional<std::vector<DensityAt>> PartMap::densities(const Vec3& x) const {
 
 double PartMap::accepted() const {
   constexpr int kTries = 10'000;
-  Random random(kSeed, kStream + 1);
+  Random random = random_for(Stream::part_accepted);
   int accepted = 0;
   for (int i = 0; i < kTries; ++i) accepted += has_density(map_(draw(random))) ? 1 : 0;
   return accepted / double{kTries};
@@ -172,13 +168,11 @@ Uniforms PartMap::whole(const Uniforms& u) const {
 }
 
 void PartMap::find_numbers() {
-  const auto count = static_cast<std::size_t>(pair_.numbers);
-  std::vector<std::size_t> all(count);
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  numbers_ = all;
+  numbers_.resize(static_cast<std::size_t>(pair_.numbers));
+  std::iota(numbers_.begin(), numbers_.end(), std::size_t{0});  // all, while they are tried
   std::vector<std::size_t> used;
-  Random random(kSeed, kStream + 2);
-  for (const std::size_t n : all) {
+  Random random = random_for(Stream::part_numbers);
+  for (const std::size_t n : numbers_) {
     bool moves = false;
     for (int i = 0; i < 20 && !moves; ++i) {
       Uniforms u{random.uniform(), random.uniform(), random.uniform()};
@@ -189,7 +183,7 @@ void PartMap::find_numbers() {
     }
     if (moves) used.push_back(n);
   }
-  numbers_ = used;
+  numbers_ = std::move(used);
 }
 
 }  // namespace plumbline::verify

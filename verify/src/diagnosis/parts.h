@@ -27,9 +27,6 @@ Parts parts_of(const SamplingPair& pair);
 /// A map of numbers, no lobes or preimages that are known.
 bool can_be_taken_apart(const SamplingPair& pair);
 
-/// A sample that is neither rejected nor an atom.
-bool has_density(const std::optional<SampleRecord>& sample);
-
 /// What densities by differences and their sums are known to.
 double tolerance_of_parts(const SamplingPair& pair);
 

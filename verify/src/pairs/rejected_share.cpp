@@ -29,7 +29,8 @@ struct Precision {
   explicit Precision(const ContractOptions& options)
       : lines(mass_error(options)),
         counted(0.4 * std::max(1e-3, options.mass_tolerance.value_or(0))),
-        probes(static_cast<std::uint64_t>(std::ceil(-std::log(kPassLevel) / lines))) {}
+        probes(static_cast<std::uint64_t>(
+            std::min<double>(kMostCounted, std::ceil(-std::log(kPassLevel) / lines)))) {}
 };
 
 /// The rejected part of lines of constant second number. Borders are bisected between random
@@ -177,7 +178,7 @@ RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon,
   };
   const RejectedShare probed = count(rejects, precision.probes, precision);
   if (probed.value == 0) return probed;
-  RejectedShare best = {0.5, 0.25, 1, 1};
+  RejectedShare best = probed;
   if (numbers < 3) {
     best = RejectedLines(sample, numbers, epsilon, precision.lines, seed).measure();
     if (numbers == 1 || best.error(kPassLevel) <= precision.lines) return best;
