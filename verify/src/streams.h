@@ -39,7 +39,10 @@ enum class Stream : std::uint64_t {
   part_lines = 50,      ///< lines on which a number jumps
   branch_points = 51,   ///< points that several numbers may lead to
   part_latitudes = 52,  ///< samples that show where a part lies
-  mean_direction = 53   ///< samples of a generator
+  mean_direction = 53,  ///< samples of a generator
+  discrete = 54,        ///< samples of a set, counted again
+  atom_shares = 55,     ///< samples that show how often an atom is chosen
+  consumed = 56         ///< numbers that a sampler with a generator takes
 };
 
 inline Random random_for(std::uint64_t seed, Stream stream) {

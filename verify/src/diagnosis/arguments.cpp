@@ -102,6 +102,26 @@ void add_mirrored_directions(std::vector<Hypothesis>& list, const Blame& blame, 
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
+/// The azimuth from wo's around an axis, of a fibre along x or y, with its sign changed: mirrored
+/// in the plane of the axis and wo.
+void add_azimuth_negated(std::vector<Hypothesis>& list, const Blame& blame, const Asked& ask) {
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+    list.push_back(at_another_point(
+        CauseKind::mirrored, 0.4, ask,
+        [axis](const Place& p) {
+          Vec3 along{};
+          along[axis] = 1;
+          const Vec3 across = cross(along, p.wo);
+          const double size = length(across);
+          if (!(size > 0)) return p.x;
+          const Vec3 n = scaled(across, 1 / size);
+          return sum(p.x, scaled(n, -2 * dot(n, p.x)));
+        },
+        "the azimuth around the " + std::string(axis == 0 ? "x" : "y") +
+            " axis, counted from that of wo, has " + "the other sign in " + blame.function));
+  }
+}
+
 /// Turned around the normal (or any axis of a map) by an angle of its own.
 void add_turned(std::vector<Hypothesis>& list, const Blame& blame, const Asked& ask) {
   Hypothesis h;
@@ -331,8 +351,10 @@ std::vector<Hypothesis> argument_hypotheses(const ReportEvidence& evidence, cons
     }
     add_mirrored_directions(list, blame, ask);
     if (bsdf) {
+      add_azimuth_negated(list, blame, ask);
       add_turned(list, blame, ask);
       add_mirrored_behind(list, blame, ask);
+      if (view.stray_share > 0) add_turned_as_a_whole(list, evidence, blame, ask);
     } else {
       add_turned_as_a_whole(list, evidence, blame, ask);
     }

@@ -15,6 +15,7 @@ struct Place {
   const ViewEvidence* view = nullptr;
   Vec3 wo{}, x{};
   double base = 0;
+  const Uniforms* u = nullptr;  ///< the random numbers that lead there, if known
 };
 
 inline bool has_wo(const ViewEvidence& view) { return view.wo.has_value(); }

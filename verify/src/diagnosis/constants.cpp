@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/direct.h"
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
 #include "text.h"
@@ -24,13 +25,27 @@ std::string constant_name(double c, double error) {
   return usual.empty() ? number(c) : usual;
 }
 
-/// Without samples to reject, a density that is too small by its own lack of mass is one of samples
-/// that were drawn again until they were accepted.
+/// Samples that ought to be rejected, a share q, are drawn again: until one is accepted, or m − 1
+/// times, which leaves q^m of them.
+bool is_left_over(const MassSeen& mass) {
+  constexpr int kMostDraws = 9;
+  if (mass.rejected < 1e-6) return true;
+  const double q = 1 - mass.integral;
+  for (int m = 2; m <= kMostDraws; ++m) {
+    const double error = mass.rejected_error + m * std::pow(q, m - 1) * mass.integral_error;
+    if (std::abs(mass.rejected - std::pow(q, m)) <= error && error < q / 10) return true;
+  }
+  return false;
+}
+
+/// A density that is too small by its own lack of mass is one of samples that were drawn again
+/// until they were accepted.
 bool draws_again(const Observations& observations, const Numbers& numbers, double error) {
   bool lacks = false;
   for (std::size_t v = 0; v < numbers.size(); ++v) {
     const ViewEvidence& view = *observations.views()[v].view;
-    if (!view.mass || view.mass->rejected > 1e-6 || view.mass->atoms > 0) return false;
+    if (!view.mass || view.mass->atoms > 0) return false;
+    if (!is_left_over(*view.mass)) return false;
     if (view.stray_share > 0) return false;
     if (numbers[v][0] < -error) return false;
     lacks = lacks || numbers[v][0] > 2 * error;
@@ -60,15 +75,34 @@ double constant_of(const Observations& observations) {
   return observed / expected;
 }
 
+/// A constant is one only if the masses add up with it: else it is that of where samples fall, and
+/// none fall elsewhere.
+bool adds_up(const Observations& observations, double constant) {
+  constexpr double kWithin = 0.02;
+  for (const ViewObservations& v : observations.views()) {
+    if (!v.judge_mass || !v.view->mass) continue;
+    const MassSeen& m = *v.view->mass;
+    const double sum = constant * m.integral + m.atoms + m.rejected + v.view->stray_share;
+    const double error = constant * m.integral_error + m.rejected_error;
+    if (std::abs(sum - 1) > kWithin + error) return false;
+  }
+  return true;
+}
+
 void add_everywhere(std::vector<Hypothesis>& list, const Blame& blame,
                     const Observations& observations, double error) {
-  const double nearest = nearest_usual_constant(constant_of(observations));
+  const double constant = constant_of(observations);
+  const double nearest = nearest_usual_constant(constant);
   const std::string name = usual_constant(nearest, error);
   if (!name.empty()) {
     Hypothesis usual;
     usual.kind = CauseKind::constant;
     usual.prediction = [nearest](const Place& p, std::span<const double>) {
       return p.base * nearest;
+    };
+    usual.charge = [&observations, nearest](const Numbers&) -> std::optional<double> {
+      if (!adds_up(observations, nearest)) return std::nullopt;
+      return 0;
     };
     usual.words = [=](std::span<const double>) {
       return "constant factor " + name + " missing from " + blame.function + ": " +
@@ -79,9 +113,11 @@ void add_everywhere(std::vector<Hypothesis>& list, const Blame& blame,
   Hypothesis h;
   h.kind = CauseKind::constant;
   h.starts = {{0.0}};
+  if (constant > 0 && std::isfinite(constant)) h.starts.push_back({std::log(constant)});
   h.prediction = [](const Place& p, std::span<const double> n) { return p.base * std::exp(n[0]); };
-  h.charge = [error](const Numbers& n) -> std::optional<double> {
+  h.charge = [&observations, error](const Numbers& n) -> std::optional<double> {
     if (std::abs(n.front()[0]) <= error / 4) return std::nullopt;
+    if (!adds_up(observations, std::exp(n.front()[0]))) return std::nullopt;
     return -kPerNumber / 2;
   };
   h.words = [=](std::span<const double> n) {
@@ -119,8 +155,9 @@ void add_on_sides(std::vector<Hypothesis>& list, bool bsdf, const Blame& blame, 
   exchanged.prediction = [](const Place& p, std::span<const double> n) {
     return p.base * std::exp(beyond(p) ? -n[0] : n[0]);
   };
-  exchanged.charge = [error](const Numbers& n) -> std::optional<double> {
-    if (std::abs(n.front()[0]) <= error) return std::nullopt;
+  // Close to 1, counts cannot tell a/b and b/a from any two numbers.
+  exchanged.charge = [least = 20 * error](const Numbers& n) -> std::optional<double> {
+    if (std::abs(n.front()[0]) <= least) return std::nullopt;
     return 0.5 - kPerNumber;
   };
   exchanged.words = [=](std::span<const double> n) {
@@ -207,6 +244,41 @@ void add_by_view(std::vector<Hypothesis>& list, const Blame& blame,
   }
 }
 
+/// Samples are rejected, or drawn again, and the density is that of the other.
+void add_of_rejection(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
+                      const Blame& blame) {
+  double rejected = 0, integral = 1;
+  for (const ViewEvidence& v : evidence.views) {
+    if (!v.mass || v.mass->atoms > 0 || v.stray_share > 0) return;
+    rejected = std::max(rejected, v.mass->rejected);
+    integral = std::min(integral, v.mass->integral);
+  }
+  constexpr double kSome = 1e-3;
+  Hypothesis h;
+  h.kind = CauseKind::not_rejected;
+  h.complexity = 1.5;
+  if (rejected > kSome) {
+    h.prediction = [](const Place& p, std::span<const double>) {
+      return p.base * (1 - p.view->mass->rejected);
+    };
+    h.words = [=](std::span<const double>) {
+      return "samples are rejected, up to " + number(std::round(1e3 * rejected) / 10) + " %, but " +
+             blame.function + " is as large as if they were drawn again";
+    };
+    list.push_back(std::move(h));
+  } else if (integral < 1 - kSome && integral > 0 &&
+             takes_more_at_times(*evidence.views.front().pair)) {
+    h.prediction = [](const Place& p, std::span<const double>) {
+      return p.base / p.view->mass->integral;
+    };
+    h.words = [=](std::span<const double>) {
+      return "samples are drawn again until they are accepted, and " + blame.function +
+             " does not know: it adds up to " + number(integral) + ", that of all candidates";
+    };
+    list.push_back(std::move(h));
+  }
+}
+
 }  // namespace
 
 std::vector<Hypothesis> constant_hypotheses(const ReportEvidence& evidence, const Blame& blame,
@@ -216,6 +288,7 @@ std::vector<Hypothesis> constant_hypotheses(const ReportEvidence& evidence, cons
   const ViewEvidence& view = evidence.views.front();
   const bool bsdf = view.bsdf != nullptr && has_wo(view);
   add_everywhere(list, blame, observations, error);
+  if (blame.function == "pdf()") add_of_rejection(list, evidence, blame);
   if (!view.pair->domain.directions()) return list;
   bool above = false, below = false;
   for (const ViewObservations& v : observations.views()) {

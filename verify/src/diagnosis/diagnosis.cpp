@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "diagnosis/direct.h"
+#include "diagnosis/discrete.h"
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
 #include "diagnosis/part_explanations.h"
+#include "diagnosis/parts.h"
 #include "diagnosis/strays.h"
 #include "diagnosis/values.h"
 #include "text.h"
@@ -29,6 +31,7 @@ std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Bla
   add(argument_hypotheses(evidence, blame, of_value));
   add(parametric_hypotheses(evidence, blame, observations));
   add(light_hypotheses(evidence, blame));
+  if (!of_value) add(number_hypotheses(evidence, blame));
   if (!of_value) add(mixture_hypotheses(evidence, blame, observations));
   return all;
 }
@@ -53,6 +56,7 @@ class Diagnosis {
     if (!anything_failed()) return {};
     if (const auto f = find_stale_state(evidence_)) return named(*f);
     if (const auto f = find_atoms_with_density(evidence_)) return named(*f);
+    if (const auto f = find_atoms_of_other_mass(evidence_)) return named(*f);
     if (const auto f = find_points_not_finite(evidence_)) return named(*f);
     if (const auto f = find_samples_on_a_line(evidence_)) return named(*f);
     Cause cause = of_the_rest();
@@ -140,13 +144,36 @@ class Diagnosis {
     if (auto cause = explain_strays(evidence_, density)) return *cause;
     if (auto cause = of_atoms(density)) return *cause;
     const auto all = all_hypotheses(evidence_, blame, density, false);
-    const auto found = explain(density, all);
-    if (!found.empty()) return from(found, which_function(found.front()));
-    for (const auto& explained : {explain_by_parts, explain_by_branches}) {
-      if (const auto f = explained(evidence_)) return {f->kind, f->words, {}, CauseKind::none};
+    auto found = explain(density, all);
+    PartExplanations parts(evidence_);
+    constexpr std::size_t kManyExact = 100;
+    if (density.exact() < kManyExact) {
+      std::erase_if(found, [&parts](const Explanation& e) { return parts.contradict(e); });
     }
+    // Where nothing falls, a factor explains nothing.
+    constexpr double kNever = 0.02;
+    if (!found.empty() && found.front().hypothesis->kind == CauseKind::constant_per_hemisphere &&
+        never_sampled() > kNever) {
+      std::erase_if(found, [](const Explanation& e) {
+        return e.hypothesis->kind == CauseKind::constant_per_hemisphere;
+      });
+    }
+    // Of a mixture whose parts are known, no number has to be guessed.
+    if (found.empty() || found.front().cost >= kPerNumber) {
+      if (const auto f = parts.by_parts(!found.empty())) return named(*f);
+    }
+    if (!found.empty()) return from(found, which_function(found.front()));
+    if (const auto f = explain_by_branches(evidence_)) return named(*f);
+    if (const auto f = explain_discrete(evidence_)) return named(*f);
     if (auto cause = of_shape(density)) return *cause;
     return {};
+  }
+
+  /// Largest share of a view's pdf() that lies where no sample does.
+  double never_sampled() const {
+    double never = 0;
+    for (const ViewEvidence& v : evidence_.views) never = std::max(never, share_never_sampled(v));
+    return never;
   }
 
   /// The continuous part and the atoms, each with or without the probability that is its own.
@@ -158,15 +185,25 @@ class Diagnosis {
     if (!(atoms > 1e-9)) return std::nullopt;
     const auto left = [](const Place& p) { return p.view->mass ? 1 - p.view->mass->atoms : 1.0; };
     if (density.judge([left](const Place& p, auto) { return p.base * left(p); }).admissible) {
-      return Cause{CauseKind::fresnel,
+      return Cause{CauseKind::lobe_probability,
                    "1 − F, the probability that the atoms leave to the rest, is missing from pdf()",
                    {},
                    CauseKind::none};
     }
     if (density.judge([left](const Place& p, auto) { return p.base / left(p); }).admissible) {
-      return Cause{CauseKind::fresnel,
+      return Cause{CauseKind::lobe_probability,
                    "1 − F, the probability that the atoms leave to the rest, is there twice in "
                    "pdf()",
+                   {},
+                   CauseKind::none};
+    }
+    const auto others = [left](const Place& p, auto) {
+      return p.base * left(p) / std::max(1e-12, 1 - left(p));
+    };
+    if (density.judge(others).admissible) {
+      return Cause{CauseKind::lobe_probability,
+                   "the rest has the probability of the atoms in pdf(), in place of what they "
+                   "leave to it",
                    {},
                    CauseKind::none};
     }
@@ -190,7 +227,8 @@ class Diagnosis {
     constexpr double kCertain = 7;
     // A number that chooses and is used again, wrongly, breaks symmetries just so.
     if (excess < kCertain && samples_break_a_symmetry(evidence_) &&
-        std::none_of(evidence_.views.begin(), evidence_.views.end(), choice_is_used_again)) {
+        std::none_of(evidence_.views.begin(), evidence_.views.end(),
+                     [](const ViewEvidence& v) { return choice_is_used_again(*v.pair); })) {
       return Cause{CauseKind::tangent_frame,
                    "samples lie unevenly to the left and right of the plane of incidence, where "
                    "pdf() is the same, and are nowhere denser than it says: they are drawn in "
@@ -198,9 +236,13 @@ class Diagnosis {
                    {},
                    CauseKind::none};
     }
-    double never = 0;
-    for (const ViewEvidence& v : evidence_.views) never = std::max(never, share_never_sampled(v));
-    if (never > 0.02 && excess > kCertain && choice_is_used_again(evidence_.views.front())) {
+    // A part of a part lies in it.
+    if (std::any_of(evidence_.views.begin(), evidence_.views.end(),
+                    [](const ViewEvidence& v) { return v.stray_share > 0; })) {
+      return std::nullopt;
+    }
+    const double never = never_sampled();
+    if (never > 0.02 && excess > kCertain && choice_is_used_again(*evidence_.views.front().pair)) {
       return Cause{CauseKind::numbers_reused,
                    "no sample falls where " + number(std::round(1e3 * never) / 10) +
                        " % of pdf() is, and more than expected elsewhere: a number that has chosen "
@@ -212,15 +254,12 @@ class Diagnosis {
   }
 
   Cause of_record(const Observations& record) {
-    const Dependence on = dependence_of(evidence_, false);
     if (auto cause = of_chosen_lobe(record)) return *cause;
-    if (on == Dependence::on_a_choice) {
-      return {CauseKind::chosen_lobe_only,
-              "the record's pdf is not a function of the directions: it states that of the chosen "
-              "lobe in place of the mixture's",
-              {},
-              CauseKind::none};
-    }
+    const std::string right = "the pdf in the record is wrong: samples are as dense as pdf() says";
+    const auto of_record_pdf = [&right](const Cause& cause) {
+      return Cause{CauseKind::record_pdf, right + "; " + cause.headline, cause.headline,
+                   cause.kind};
+    };
     const Blame blame{"the pdf in the record", "pdf()"};
     const Observations inverted = record.inverted();
     std::vector<Hypothesis> factors;
@@ -230,15 +269,25 @@ class Diagnosis {
       factors.insert(factors.end(), list.begin(), list.end());
     }
     Cause cause = from(explain(inverted, factors));
-    if (cause.kind == CauseKind::none) {
-      const auto others = argument_hypotheses(evidence_, {"the pdf in the record", "it"}, false);
-      cause = from(explain(record, others));
+    if (cause.kind != CauseKind::none) return of_record_pdf(cause);
+    if (const std::size_t multiples = multiples_in_records(evidence_); multiples > 0) {
+      return {CauseKind::record_pdf,
+              right + "; it is one of " + number(double(multiples)) +
+                  " multiples of it: the probability of a choice is missing from the record",
+              "the probability of a choice is missing from the record",
+              CauseKind::choice_probability};
     }
-    const std::string right = "the pdf in the record is wrong: samples are as dense as pdf() says";
-    if (cause.kind == CauseKind::none) {
-      return {CauseKind::record_pdf, right, {}, CauseKind::none};
+    if (dependence_of(evidence_, false) == Dependence::on_a_choice) {
+      return {CauseKind::chosen_lobe_only,
+              "the record's pdf is not a function of the directions: it states that of the chosen "
+              "lobe in place of the mixture's",
+              {},
+              CauseKind::none};
     }
-    return {CauseKind::record_pdf, right + "; " + cause.headline, cause.headline, cause.kind};
+    const auto others = argument_hypotheses(evidence_, {"the pdf in the record", "it"}, false);
+    cause = from(explain(record, others));
+    if (cause.kind != CauseKind::none) return of_record_pdf(cause);
+    return {CauseKind::record_pdf, right, {}, CauseKind::none};
   }
 
   /// Lobes that are exposed: every ratio is one of theirs.
@@ -289,7 +338,8 @@ class Diagnosis {
   }
 
   Cause of_weight(const Observations& weight) {
-    const Blame blame{"f·|cosθ|", "weight · pdf()"};
+    const bool bsdf = evidence_.views.front().bsdf != nullptr;
+    const Blame blame{bsdf ? "f·|cosθ|" : "the value", "weight · pdf()"};
     if (auto cause = of_chosen_lobe(weight)) return *cause;
     if (dependence_of(evidence_, true) == Dependence::on_a_choice) {
       return {CauseKind::chosen_lobe_only,
@@ -309,6 +359,10 @@ class Diagnosis {
       });
     }
     Cause cause = from(found);
+    if (cause.kind != CauseKind::none && !bsdf) {
+      return {CauseKind::weight, "the weight is not value/pdf(): " + cause.headline, cause.headline,
+              cause.kind};
+    }
     cause.kind = of_value(cause.kind);
     cause.second_kind = of_value(cause.second_kind);
     if (cause.kind != CauseKind::none) return cause;

@@ -177,6 +177,27 @@ std::array<std::vector<double>, 3> coordinates_of_samples(const ViewEvidence& vi
   return coordinates;
 }
 
+/// Many samples in one point state another density than pdf() does there: an atom's, made up.
+std::optional<Finding> of_made_up_density(const ViewEvidence& view, const std::string& where) {
+  constexpr int kSamples = 4096;
+  constexpr double kOther = 0.01;
+  std::map<Vec3, int> counts;
+  const auto samples = draw_samples(view, kSamples);
+  for (const SampleRecord& s : samples) ++counts[s.x];
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  for (const SampleRecord& s : samples) {
+    if (s.x != most->first || s.mass > 0 || !s.pdf) continue;
+    const double pdf = pdf_at(view, s.x);
+    if (std::abs(*s.pdf - pdf) <= kOther * std::max(*s.pdf, pdf)) return std::nullopt;
+    return Finding{CauseKind::atom_as_density,
+                   where + ", and state a density of " + number(*s.pdf) + ", where pdf() gives " +
+                       number(pdf) + ": an atom that is not said to be one"};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
@@ -233,6 +254,7 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
     }
     const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
     if (crowded >= varying || (v->pair->domain.dimension() == 1)) {
+      if (const auto f = of_made_up_density(*v, some + " lie in one point, " + where)) return f;
       return Finding{CauseKind::on_a_line, some + " lie in one point, " + where +
                                                ": a clamp, or an atom that is not said to be one"};
     }
@@ -258,6 +280,53 @@ std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence) {
       return Finding{
           CauseKind::atom_as_density,
           "all samples are atoms, but pdf() gives a density, ∫pdf = " + number(v->mass->integral)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence) {
+  constexpr int kSamples = 20'000;
+  constexpr double kSame = 1e-4, kCertain = 7;
+  struct Seen {
+    Vec3 x{};
+    double mass = 0, count = 0;
+  };
+  for (const ViewEvidence& v : evidence.views) {
+    if (!v.failed || v.pair->domain.dimension() == 0) continue;
+    std::vector<Seen> atoms;
+    Random random = random_for(Stream::atom_shares);
+    for (int i = 0; i < kSamples && atoms.size() < 8; ++i) {
+      const auto s = v.pair->next(random);
+      if (!s || !(s->mass > 0) || !is_finite(s->x)) continue;
+      const auto same = std::find_if(atoms.begin(), atoms.end(), [&s](const Seen& a) {
+        return length(sum(a.x, scaled(s->x, -1))) < kSame && std::abs(a.mass - s->mass) < kSame;
+      });
+      if (same == atoms.end()) {
+        atoms.push_back({s->x, s->mass, 1});
+      } else {
+        ++same->count;
+      }
+    }
+    const auto pull = [](const Seen& a, double mass) {
+      const double p = std::clamp(mass, 0.0, 1.0);
+      return (a.count - kSamples * mass) / std::sqrt(kSamples * p * (1 - p) + 1);
+    };
+    for (const Seen& a : atoms) {
+      if (!(std::abs(pull(a, a.mass)) > kCertain)) continue;
+      const bool exchanged = atoms.size() == 2 &&
+                             std::abs(pull(atoms[0], atoms[1].mass)) < kCertain &&
+                             std::abs(pull(atoms[1], atoms[0].mass)) < kCertain;
+      if (exchanged) {
+        return Finding{CauseKind::lobe_probability,
+                       "the masses of the two atoms are exchanged: " + number(a.mass) +
+                           " is stated by the one that is chosen with probability " +
+                           number(std::round(1e4 * a.count / kSamples) / 1e4)};
+      }
+      return Finding{CauseKind::atom_as_density,
+                     "an atom states a mass of " + number(a.mass) + ", but " +
+                         number(std::round(1e3 * a.count / kSamples) / 10) +
+                         " % of the samples are drawn there"};
     }
   }
   return std::nullopt;

@@ -24,6 +24,9 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence);
 /// Records of atoms that state a density; nothing but atoms beside a density.
 std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence);
 
+/// Atoms that are drawn another share of times than the mass that they state.
+std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence);
+
 /// NaN, infinity or a negative density.
 std::optional<Finding> find_not_finite(const ReportEvidence& evidence);
 
@@ -40,14 +43,18 @@ enum class Dependence {
 /// Of the record's pdf, or weight · pdf() (of_weight).
 Dependence dependence_of(const ReportEvidence& evidence, bool of_weight);
 
+/// The record's pdf is one of a few multiples of pdf(), seldom pdf() itself: how many there are; 0
+/// where it is not so.
+std::size_t multiples_in_records(const ReportEvidence& evidence);
+
+/// A sampler with a generator takes more numbers for one sample than for another: it draws again.
+bool takes_more_at_times(const SamplingPair& pair);
+
 /// Left and right of the plane of incidence the pdf is the same, and turned around the normal it is
 /// as well; but samples are not.
 bool samples_break_a_symmetry(const ReportEvidence& evidence);
 
 /// Share of pdf() in places where no sample falls though many are expected: whole cells of a grid.
 double share_never_sampled(const ViewEvidence& view);
-
-/// The number that the map jumps in moves the sample between the jumps as well.
-bool choice_is_used_again(const ViewEvidence& view);
 
 }  // namespace plumbline::verify

@@ -25,6 +25,9 @@ struct RatioAt {
   double ratio = 1;
   double error = 0;  ///< of the ratio, relative: what rounding or differences may be off by
   int lobe = -1;     ///< of lobe_density_over_pdf
+
+  /// The random numbers that lead there, where they are known to be the only ones.
+  std::optional<Uniforms> u = {};
 };
 
 struct RatioSeries {

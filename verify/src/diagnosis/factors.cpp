@@ -316,6 +316,7 @@ std::vector<Hypothesis> factor_hypotheses(const ReportEvidence& evidence, const 
       for (const double a : {1.0, -1.0}) {
         for (const double b : {1.0, -1.0}) {
           list.push_back(hypothesis_of({{factors[i], a}, {factors[j], b}}, false, blame, error));
+          list.back().needs_exact = true;
         }
       }
     }

@@ -16,13 +16,49 @@ double squares(const Numbers& residuals) {
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::max();
 }
 
+/// A few ratios may be those of a seam, wrong and sure of themselves.
+constexpr double kFew = 0.06;
+
+/// Of all but the few that are farthest off.
+double squares_of_most(Numbers residuals) {
+  for (double& r : residuals) r = std::abs(r);
+  std::sort(residuals.begin(), residuals.end());
+  residuals.resize(residuals.size() - static_cast<std::size_t>(kFew * double(residuals.size())));
+  return squares(residuals);
+}
+
+/// Which are far beyond the middle one, if they are few: the others then decide.
+std::vector<bool> far_off(const Numbers& residuals) {
+  constexpr double kBeyond = 50;
+  Numbers sizes;
+  for (const double r : residuals) sizes.push_back(std::abs(r));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  if (!sizes.empty()) std::nth_element(sizes.begin(), middle, sizes.end());
+  std::vector<bool> far;
+  for (const double r : residuals) far.push_back(std::abs(r) > kBeyond * std::max(1.0, *middle));
+  const auto count = static_cast<double>(std::count(far.begin(), far.end(), true));
+  if (count > kFew * static_cast<double>(far.size())) far.assign(far.size(), false);
+  return far;
+}
+
 class LeastSquares {
  public:
   LeastSquares(const Observations& observations, const Prediction& prediction, int view)
       : observations_(observations), prediction_(prediction), view_(view) {}
 
   Numbers residuals(const Numbers& p, bool flatten) const {
-    return observations_.residuals(prediction_, p, view_, flatten);
+    Numbers all = observations_.residuals(prediction_, p, view_, flatten);
+    if (!flatten && ignored_.size() == all.size()) {
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (ignored_[i]) all[i] = 0;
+      }
+    }
+    return all;
+  }
+
+  /// From here on, what is far off at p is left aside.
+  void ignore_far_off(const Numbers& p) {
+    ignored_ = far_off(observations_.residuals(prediction_, p, view_, false));
   }
 
   Numbers descend(Numbers p, bool flatten, int most) const {
@@ -84,6 +120,7 @@ class LeastSquares {
   const Observations& observations_;
   const Prediction& prediction_;
   int view_;
+  std::vector<bool> ignored_;
 };
 
 }  // namespace
@@ -106,7 +143,7 @@ std::vector<double> solve_definite(std::vector<std::vector<double>> a, std::vect
 
 std::vector<double> fit_parameters(const Observations& observations, const Prediction& prediction,
                                    const std::vector<std::vector<double>>& starts, int view) {
-  const LeastSquares problem(observations, prediction, view);
+  LeastSquares problem(observations, prediction, view);
   // Exact ratios make a valley so narrow that only the right start lies in it; as if known to a
   // percent, it is wide.
   Numbers best = starts.front();
@@ -122,8 +159,13 @@ std::vector<double> fit_parameters(const Observations& observations, const Predi
   constexpr double kNear = 50;
   best = problem.descend(std::move(best), true, 25);
   const Numbers left = problem.residuals(best, true);
-  if (squares(left) > kNear * static_cast<double>(left.size())) return best;
-  return problem.descend(std::move(best), false, 25);
+  if (squares_of_most(left) > kNear * static_cast<double>(left.size())) return best;
+  // Once more from there: what is far off is known better, and steep points come into their own.
+  for (int round = 0; round < 2; ++round) {
+    problem.ignore_far_off(best);
+    best = problem.descend(std::move(best), false, 25);
+  }
+  return best;
 }
 
 }  // namespace plumbline::verify

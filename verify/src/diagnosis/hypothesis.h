@@ -82,6 +82,9 @@ std::vector<Hypothesis> argument_hypotheses(const ReportEvidence& evidence, cons
 std::vector<Hypothesis> mixture_hypotheses(const ReportEvidence& evidence, const Blame& blame,
                                            const Observations& observations);
 
+/// A random number enters the map as another power of itself: a root missing, or too many.
+std::vector<Hypothesis> number_hypotheses(const ReportEvidence& evidence, const Blame& blame);
+
 /// Area against solid angle of planar and spherical lights.
 std::vector<Hypothesis> light_hypotheses(const ReportEvidence& evidence, const Blame& blame);
 

@@ -125,6 +125,51 @@ Dependence dependence_of(const ReportEvidence& evidence, bool of_weight) {
   return Dependence::on_the_point;
 }
 
+std::size_t multiples_in_records(const ReportEvidence& evidence) {
+  constexpr double kSame = 1e-5, kFewest = 5, kMostly = 0.8;
+  constexpr std::size_t kMost = 64;
+  for (const ViewEvidence& v : evidence.views) {
+    if (!v.failed || v.pair->domain.dimension() == 0) continue;
+    std::vector<double> logarithms;
+    for (const Valued& s : valued_samples(v, false)) logarithms.push_back(s.logarithm);
+    std::sort(logarithms.begin(), logarithms.end());
+    std::size_t multiples = 0;
+    double covered = 0, right = 0;
+    for (std::size_t i = 0, j = 0; i < logarithms.size(); i = j) {
+      while (j < logarithms.size() && logarithms[j] - logarithms[i] < kSame) ++j;
+      const auto count = static_cast<double>(j - i);
+      if (count < kFewest) continue;
+      ++multiples;
+      covered += count;
+      if (std::abs(logarithms[i]) < kSame) right = count;
+    }
+    const auto all = static_cast<double>(logarithms.size());
+    if (multiples < 2 || multiples > kMost || covered < kMostly * all || right > all / 2) return 0;
+    return multiples;
+  }
+  return 0;
+}
+
+bool takes_more_at_times(const SamplingPair& pair) {
+  if (!pair.draw) return false;
+  constexpr int kSamples = 200, kMost = 64;
+  Random random = random_for(Stream::consumed);
+  int usual = -1;
+  for (int i = 0; i < kSamples; ++i) {
+    Random before = random;
+    pair.draw(random);
+    const std::uint64_t next = Random(random).bits();
+    int taken = 0;
+    while (taken < kMost && Random(before).bits() != next) {
+      before.bits();
+      ++taken;
+    }
+    if (usual >= 0 && taken != usual) return true;
+    usual = taken;
+  }
+  return false;
+}
+
 namespace {
 
 Vec3 turned(const Vec3& w, double angle) {
@@ -224,32 +269,6 @@ double share_never_sampled(const ViewEvidence& view) {
     }
   }
   return total > 0 ? never / total : 0;
-}
-
-bool choice_is_used_again(const ViewEvidence& view) {
-  constexpr int kSteps = 4096;
-  if (view.pair->draw || !view.pair->sample) return false;
-  for (int d = 0; d < view.pair->numbers; ++d) {
-    std::vector<double> steps;
-    std::optional<SampleRecord> last;
-    for (int i = 0; i < kSteps; ++i) {
-      Uniforms u{0.37, 0.61, 0.43};
-      u[static_cast<std::size_t>(d)] = (i + 0.5) / kSteps;
-      auto s = view.pair->sample(u);
-      if (s && last && s->mass == 0 && last->mass == 0) {
-        steps.push_back(length(sum(s->x, scaled(last->x, -1))));
-      }
-      last = s;
-    }
-    if (steps.size() < kSteps / 4) continue;
-    std::vector<double> sorted = steps;
-    std::sort(sorted.begin(), sorted.end());
-    const double middle = sorted[sorted.size() / 2];
-    for (std::size_t i = steps.size() / 20; i + steps.size() / 20 < steps.size(); ++i) {
-      if (middle > 1e-9 && steps[i] > 100 * middle && steps[i] > 0.02) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace plumbline::verify

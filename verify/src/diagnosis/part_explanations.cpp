@@ -24,6 +24,14 @@ constexpr double kMissed = 0.06;
 
 using Maps = std::vector<std::unique_ptr<PartMap>>;
 
+/// One equation Σ a q/pdf = 1 at a point.
+struct Equation {
+  Vec3 x{};
+  double pdf = 0;
+  std::vector<double> q;
+  double error = 0;
+};
+
 Maps maps_of(const SamplingPair& pair, const Parts& parts) {
   Maps maps;
   for (std::size_t i = 0; i < parts.count(); ++i) {
@@ -32,12 +40,6 @@ Maps maps_of(const SamplingPair& pair, const Parts& parts) {
   }
   return maps;
 }
-
-/// One equation Σ a q/pdf = 1.
-struct Equation {
-  std::vector<double> q;
-  double error = 0;
-};
 
 std::vector<Equation> equations_of(const SamplingPair& pair, const Maps& maps) {
   std::vector<Equation> equations;
@@ -48,7 +50,7 @@ std::vector<Equation> equations_of(const SamplingPair& pair, const Maps& maps) {
       if (!has_density(s)) continue;
       const double pdf = pair.pdf(s->x);
       if (!(pdf > 0)) continue;
-      Equation e;
+      Equation e{s->x, pdf, {}, 0};
       for (const auto& other : maps) {
         const auto densities = other->densities(s->x);
         if (!densities) break;
@@ -162,16 +164,34 @@ bool lacks_sines(const Solved& solved, const Maps& maps) {
   return false;
 }
 
-std::optional<Solved> solve_view(const ViewEvidence& view) {
+}  // namespace
+
+/// A view's sampler in parts, and the densities of all of them at points of each.
+struct PartExplanations::Apart {
+  explicit Apart(const ViewEvidence& of) : view(&of), parts(parts_of(*of.pair)) {
+    if (parts.count() < 2) return;
+    maps = maps_of(*of.pair, parts);
+    if (!maps.empty()) equations = equations_of(*of.pair, maps);
+  }
+  bool known() const { return parts.count() >= 2 && equations.size() >= 5 * parts.count(); }
+
+  const ViewEvidence* view;
+  Parts parts;
+  Maps maps;
+  std::vector<Equation> equations;
+};
+
+namespace {
+
+std::optional<Solved> solve_view(const PartExplanations::Apart& apart) {
+  if (!apart.known()) return std::nullopt;
+  const ViewEvidence& view = *apart.view;
   const SamplingPair& pair = *view.pair;
+  const Maps& maps = apart.maps;
+  const std::vector<Equation>& equations = apart.equations;
   Solved solved;
-  solved.parts = parts_of(pair);
+  solved.parts = apart.parts;
   const std::size_t parts = solved.parts.count();
-  if (parts < 2) return std::nullopt;
-  const Maps maps = maps_of(pair, solved.parts);
-  if (maps.empty()) return std::nullopt;
-  const std::vector<Equation> equations = equations_of(pair, maps);
-  if (equations.size() < 5 * parts) return std::nullopt;
   const double tolerance = tolerance_of_parts(pair);
   solved.a = coefficients(equations, parts, tolerance);
   // Every second equation has not been fitted.
@@ -212,15 +232,70 @@ std::string listed(const std::vector<double>& numbers) {
 
 }  // namespace
 
-std::optional<Finding> explain_by_parts(const ReportEvidence& evidence) {
+PartExplanations::PartExplanations(const ReportEvidence& evidence) : evidence_(evidence) {}
+PartExplanations::~PartExplanations() = default;
+
+const std::vector<std::unique_ptr<PartExplanations::Apart>>& PartExplanations::views() {
+  if (looked_) return views_;
+  looked_ = true;
+  for (const ViewEvidence& v : evidence_.views) {
+    if (!v.failed || !v.mass || views_.size() == kViews) continue;
+    views_.push_back(std::make_unique<Apart>(v));
+    if (!views_.back()->known()) break;
+  }
+  return views_;
+}
+
+bool PartExplanations::contradict(const Explanation& e) {
+  // Numbers that were fitted to counts are right to a few percent only.
+  constexpr double kFitted = 0.03;
+  for (const auto& apart : views()) {
+    if (!apart->known()) continue;
+    const auto at = static_cast<std::size_t>(apart->view - evidence_.views.data());
+    const double tolerance =
+        e.numbers[at].empty() ? tolerance_of_parts(*apart->view->pair) : kFitted;
+    double tested = 0, off = 0;
+    for (const Equation& q : apart->equations) {
+      double density = 0;
+      for (std::size_t i = 0; i < q.q.size(); ++i)
+        density += apart->parts.share(i) * q.q[i] * q.pdf;
+      const Place place{apart->view, apart->view->wo.value_or(Vec3{}), q.x, q.pdf};
+      const double predicted = e.hypothesis->prediction(place, e.numbers[at]);
+      if (predicted == kNothingSaid) continue;
+      ++tested;
+      off += std::abs(predicted / density - 1) <= tolerance + 4 * q.error ? 0 : 1;
+    }
+    if (off > 2 * kMissed * tested) return true;
+  }
+  return false;
+}
+
+namespace {
+
+/// Whether pdf() has other weights than the parts' shares, and the same ones for each of several
+/// views: a number of the code, not a function of the directions that looks like one.
+bool steady(const std::vector<Solved>& views, double tolerance) {
+  if (views.size() < 2) return false;
+  for (const Solved& v : views) {
+    if (v.a.size() != views.front().a.size()) return false;
+    for (std::size_t i = 0; i < v.a.size(); ++i) {
+      if (std::abs(v.a[i] - views.front().a[i]) > tolerance) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Finding> PartExplanations::by_parts(bool only_steady) {
   std::optional<Solved> shown;
+  std::vector<Solved> all;
   bool complete = true;
-  std::size_t looked_at = 0;
-  for (const ViewEvidence& v : evidence.views) {
-    if (!v.failed || !v.mass || looked_at == kViews) continue;
-    ++looked_at;
-    const auto solved = solve_view(v);
+  for (const auto& apart : views()) {
+    const ViewEvidence& v = *apart->view;
+    const auto solved = solve_view(*apart);
     if (!solved) return std::nullopt;
+    all.push_back(*solved);
     if (!solved->off) continue;
     constexpr double kKnown = 0.02;
     complete = complete && !solved->pieces &&
@@ -228,11 +303,14 @@ std::optional<Finding> explain_by_parts(const ReportEvidence& evidence) {
     if (!shown) shown = solved;
   }
   if (!shown) return std::nullopt;
+  if (only_steady && !steady(all, 20 * tolerance_of_parts(*evidence_.views.front().pair))) {
+    return std::nullopt;
+  }
   std::vector<double> shares;
   for (std::size_t i = 0; i < shown->parts.count(); ++i) shares.push_back(shown->parts.share(i));
   const std::string chosen = "a random number chooses one of " + number(double(shares.size())) +
                              " parts with probabilities " + listed(shares);
-  const ViewEvidence& view = evidence.views.front();
+  const ViewEvidence& view = evidence_.views.front();
   if (view.pair->domain.directions() && !has_wo(view)) {
     if (shown->by_sines) {
       return Finding{CauseKind::sine, chosen + ", but pdf() weighs their densities by " +

@@ -65,4 +65,7 @@ class PartMap {
   std::optional<BranchSearch> search_;
 };
 
+/// The number that chooses a part moves samples in one of the parts as well.
+bool choice_is_used_again(const SamplingPair& pair);
+
 }  // namespace plumbline::verify

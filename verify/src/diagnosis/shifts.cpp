@@ -153,6 +153,7 @@ void add_shifted_directions(std::vector<Hypothesis>& list, const Blame& blame, c
     Hypothesis h;
     h.kind = CauseKind::shifted;
     h.complexity = complexity;
+    h.needs_exact = true;
     h.prediction = std::move(prediction);
     h.words = [words](std::span<const double>) { return words; };
     list.push_back(std::move(h));

@@ -17,6 +17,10 @@ struct DensityAt {
   double relative_error = 0;
 };
 
+/// What a density by differences may be off by, relative, whatever it says of its own error: more
+/// where the map is rounded to float.
+inline double tolerance_of_differences(double epsilon) { return epsilon > 0x1p-40 ? 5e-3 : 1e-4; }
+
 /// Density with which a map spreads uniform numbers around u: 1/|∂x/∂u| by extrapolated
 /// differences. nullopt where the map rejects or has atoms nearby, or is flat.
 ///

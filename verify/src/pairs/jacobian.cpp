@@ -16,8 +16,6 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr double kDoubleTolerance = 1e-4;
-constexpr double kFloatTolerance = 5e-3;
 // Differences that do not converge at more than this share of the points prove too little.
 constexpr double kMostFolds = 0.75;
 // Failing points that a seam may cause by a coincidence of its differences.
@@ -48,7 +46,7 @@ class Jacobian {
   Jacobian(const SamplingPair& pair, const ContractOptions& options)
       : pair_(pair),
         random_(random_for(options.seed, Stream::jacobian)),
-        tolerance_(pair.epsilon > 0x1p-40 ? kFloatTolerance : kDoubleTolerance) {
+        tolerance_(tolerance_of_differences(pair.epsilon)) {
     CheckResult& r = outcome_.result;
     r.kind = CheckKind::jacobian;
     r.subject = pair.name + "/jacobian";
@@ -127,30 +125,36 @@ class Jacobian {
     return std::abs(pdf / density.value - 1) <= tolerance_ + 4 * density.relative_error;
   }
 
-  /// Whether differences that are shorter, or on one side only, agree where long ones do not: they
-  /// are as close, or they contradict the long ones.
-  bool agrees_closely(const Map& map, const Uniforms& u, double pdf, const DensityAt& far) const {
-    const auto holds = [&](const DensityAt& d) {
-      if (!(d.relative_error <= tolerance_) || !agrees(pdf, d)) return false;
+  /// What differences that are shorter, or on one side only, say where long ones fail.
+  struct Closely {
+    bool agrees = false;       ///< with the pdf: they are as close, or contradict the long ones
+    bool contradicts = false;  ///< the long ones, which straddle a seam
+  };
+  Closely look_closely(const Map& map, const Uniforms& u, double pdf, const DensityAt& far) const {
+    Closely seen;
+    const auto look = [&](const DensityAt& d) {
+      if (!(d.relative_error <= tolerance_)) return;
       const double apart = std::abs(far.value / d.value - 1);
-      return d.relative_error <= tolerance_ / 4 ||
-             apart > tolerance_ + 4 * (far.relative_error + d.relative_error);
+      const bool contradicts = apart > tolerance_ + 4 * (far.relative_error + d.relative_error);
+      seen.contradicts = seen.contradicts || contradicts;
+      if (agrees(pdf, d) && (d.relative_error <= tolerance_ / 4 || contradicts)) seen.agrees = true;
     };
     for (const double step : kShortSteps) {
-      const auto d = density_by_differences(map, u, dimension(), pair_.epsilon, step);
-      if (d && holds(*d)) return true;
+      if (const auto d = density_by_differences(map, u, dimension(), pair_.epsilon, step)) look(*d);
     }
-    const auto sides = densities_on_one_side(map, u, dimension(), pair_.epsilon);
-    return std::any_of(sides.begin(), sides.end(), holds);
+    for (const DensityAt& d : densities_on_one_side(map, u, dimension(), pair_.epsilon)) look(d);
+    return seen;
   }
 
   void count(const Map& map, const Uniforms& u, const Vec3& x, double pdf, DensityAt density) {
-    if (!agrees(pdf, density) && !pair_.preimages && agrees_closely(map, u, pdf, density)) {
+    const Closely closely =
+        !agrees(pdf, density) && !pair_.preimages ? look_closely(map, u, pdf, density) : Closely{};
+    if (closely.agrees) {
       ++seams_;
       return;
     }
     const std::size_t before = static_cast<std::size_t>(failing_);
-    see(x, pdf, density);
+    see(x, pdf, density, pair_.preimages ? std::nullopt : std::optional(u), closely.contradicts);
     if (static_cast<std::size_t>(failing_) == before) return;
     if (density.value < pdf) {
       if (below_.size() < kBranchPoints) below_.push_back({u, x, pdf});
@@ -158,13 +162,16 @@ class Jacobian {
     }
   }
 
-  void see(const Vec3& x, double pdf, const DensityAt& density) {
+  /// @param u       the numbers that lead there, if they are the only ones
+  /// @param at_seam counts as failing, but is no evidence of what the density is
+  void see(const Vec3& x, double pdf, const DensityAt& density, std::optional<Uniforms> u = {},
+           bool at_seam = false) {
     ++usable_;
     const double error = std::abs(pdf / density.value - 1);
     RatioSeries& ratios = lobe_ >= 0 ? of_lobes_ : of_whole_;
     // A sum of densities is known as well as they are rounded.
     const double known = std::max(density.relative_error, 256 * pair_.epsilon);
-    ratios.points.push_back({x, density.value / pdf, known, lobe_});
+    if (!at_seam) ratios.points.push_back({x, density.value / pdf, known, lobe_, u});
     if (!(error <= worst_)) {
       worst_ = error;
       worst_at_ = x;
@@ -190,7 +197,7 @@ class Jacobian {
       beyond += !sum_agrees && density->value > b.pdf ? 1 : 0;
       if (sum_agrees) {
         worst = std::max(worst, std::abs(b.pdf / density->value - 1));
-        sums.points.push_back({b.x, density->value / b.pdf, density->relative_error, -1});
+        sums.points.push_back({b.x, density->value / b.pdf, density->relative_error, -1, {}});
       }
     }
     if (!(several > kManyToOne * looked_at)) return;
@@ -229,8 +236,11 @@ class Jacobian {
       const auto density = sum_over(preimages, pair_.sample);
       if (!(pdf > 0) || !density || !(density->relative_error <= tolerance_ / 4)) continue;
       several += preimages.size() > 1 ? 1 : 0;
-      sums.points.push_back({sample->x, density->value / pdf,
-                             std::max(density->relative_error, 256 * pair_.epsilon), -1});
+      sums.points.push_back({sample->x,
+                             density->value / pdf,
+                             std::max(density->relative_error, 256 * pair_.epsilon),
+                             -1,
+                             {}});
     }
     if (several > kManyToOne * static_cast<double>(sums.points.size())) of_whole_ = std::move(sums);
   }

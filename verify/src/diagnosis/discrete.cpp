@@ -1,0 +1,116 @@
+#include "diagnosis/discrete.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "diagnosis/ask.h"
+#include "distributions.h"
+#include "streams.h"
+#include "text.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+// Samples for each of the set, at least and at most.
+constexpr std::size_t kEach = 200, kFewest = 100'000, kMost = 2'000'000;
+
+struct Counted {
+  std::vector<double> pmf, observed;
+  double samples = 0, sum = 0;
+};
+
+std::optional<Counted> count(const ViewEvidence& view) {
+  const std::size_t size = view.pair->domain.size();
+  if (size == 0 || size > kMost / 10) return std::nullopt;
+  Counted c;
+  for (std::size_t i = 0; i < size; ++i) {
+    c.pmf.push_back(view.pair->pdf({static_cast<double>(i), 0, 0}));
+    if (!(c.pmf.back() >= 0) || !std::isfinite(c.pmf.back())) return std::nullopt;
+    c.sum += c.pmf.back();
+  }
+  c.observed.assign(size, 0);
+  Random random = random_for(Stream::discrete);
+  const std::size_t samples = std::clamp(kEach * size, kFewest, kMost);
+  for (std::size_t i = 0; i < samples; ++i) {
+    const auto s = view.pair->next(random);
+    if (!s || !(s->x[0] >= 0) || s->x[0] >= static_cast<double>(size)) continue;
+    ++c.observed[static_cast<std::size_t>(s->x[0])];
+    ++c.samples;
+  }
+  if (!(c.samples > 0) || !(c.sum > 0)) return std::nullopt;
+  return c;
+}
+
+double expected(const Counted& c, std::size_t i) { return c.samples * c.pmf[i] / c.sum; }
+
+/// As often as pmf() says, apart from what it adds up to.
+bool in_proportion(const Counted& c) {
+  constexpr double kFewestExpected = 10, kLevel = 1e-4;
+  double statistic = 0, degrees = -1;
+  for (std::size_t i = 0; i < c.pmf.size(); ++i) {
+    const double e = expected(c, i);
+    if (e < kFewestExpected) continue;
+    statistic += (c.observed[i] - e) * (c.observed[i] - e) / e;
+    ++degrees;
+  }
+  return degrees < 1 || chi_square_tail(statistic, degrees) > kLevel;
+}
+
+/// Share of pmf() on what is never chosen.
+double never_chosen(const Counted& c) {
+  constexpr double kMany = 20;
+  double share = 0;
+  for (std::size_t i = 0; i < c.pmf.size(); ++i) {
+    if (c.observed[i] == 0 && expected(c, i) > kMany) share += c.pmf[i] / c.sum;
+  }
+  return share;
+}
+
+}  // namespace
+
+std::optional<Finding> explain_discrete(const ReportEvidence& evidence) {
+  const ViewEvidence& view = evidence.views.front();
+  if (view.pair->domain.dimension() != 0) return std::nullopt;
+  const auto counted = count(view);
+  if (!counted) return std::nullopt;
+  const Counted& c = *counted;
+  if (in_proportion(c)) {
+    constexpr double kOne = 1e-4;
+    if (std::abs(c.sum - 1) < kOne) return std::nullopt;
+    const auto size = static_cast<double>(c.pmf.size());
+    const bool per_item = std::abs(c.sum / size - 1) < kOne;
+    return Finding{CauseKind::constant,
+                   "pmf() adds up to " + number(c.sum) +
+                       (per_item ? ", the number of items: a density over [0, 1), not a probability"
+                                 : ", and is in proportion to how often each is chosen")};
+  }
+  const auto [least, most_likely] = std::minmax_element(c.pmf.begin(), c.pmf.end());
+  if (c.pmf.size() > 1 && *most_likely - *least < 1e-9 * *most_likely) {
+    return Finding{CauseKind::choice_probability,
+                   "pmf() is the same for all, " + number(*least) +
+                       ", but they are not chosen alike: the weight of the chosen one is missing"};
+  }
+  if (const double share = never_chosen(c); share > 0.02) {
+    return Finding{
+        CauseKind::numbers_reused,
+        number(std::round(1e3 * share) / 10) +
+            " % of pmf() is on what is never chosen: a random number that has chosen one "
+            "way is used again without being stretched to [0, 1)?"};
+  }
+  std::size_t worst = 0;
+  double most = 0;
+  for (std::size_t i = 0; i < c.pmf.size(); ++i) {
+    const double e = c.samples * c.pmf[i];
+    const double pull = std::abs(c.observed[i] - e) / std::sqrt(e + 1);
+    if (pull > most) most = pull, worst = i;
+  }
+  return Finding{CauseKind::choice_probability,
+                 "pmf() is not the probability of choosing: " +
+                     number(std::round(1e4 * c.observed[worst] / c.samples) / 1e4) +
+                     " of the samples are item " + number(static_cast<double>(worst)) +
+                     ", for which it gives " + number(c.pmf[worst])};
+}
+
+}  // namespace plumbline::verify
