@@ -27,10 +27,11 @@ Hypothesis at_another_point(CauseKind kind, double complexity, const Asked& ask,
   return h;
 }
 
-void add_swapped(std::vector<Hypothesis>& list, const Blame& blame, bool of_value) {
+void add_swapped(std::vector<Hypothesis>& list, const Blame& blame, bool of_value, double eta) {
   Hypothesis h;
   h.kind = CauseKind::directions_swapped;
-  h.complexity = 0.5;
+  // A refraction's f with both exchanged differs by η² alone.
+  h.complexity = of_value && eta != 1 ? 3 : 0.5;
   h.prediction = [of_value](const Place& p, std::span<const double>) {
     if (of_value) return f_at(*p.view, p.x, p.wo) * std::abs(p.x[2]);
     return pdf_at(*p.view, p.x, p.wo);
@@ -42,7 +43,7 @@ void add_swapped(std::vector<Hypothesis>& list, const Blame& blame, bool of_valu
   list.push_back(std::move(h));
   if (!of_value) return;
   Hypothesis with_cosine = list.back();
-  with_cosine.complexity = 0.7;
+  with_cosine.complexity += 0.2;
   with_cosine.prediction = [](const Place& p, std::span<const double>) {
     return f_at(*p.view, p.x, p.wo) * std::abs(p.wo[2]);
   };
@@ -120,6 +121,23 @@ void add_azimuth_negated(std::vector<Hypothesis>& list, const Blame& blame, cons
         "the azimuth around the " + std::string(axis == 0 ? "x" : "y") +
             " axis, counted from that of wo, has " + "the other sign in " + blame.function));
   }
+}
+
+/// Directions of points of the whole cube, where those outside the ball ought to be rejected: r³/3
+/// of the way to the border, of the cube's volume 8.
+void add_corners_of_cube(std::vector<Hypothesis>& list, const Blame& blame) {
+  Hypothesis h;
+  h.kind = CauseKind::not_rejected;
+  h.complexity = 2;
+  h.prediction = [](const Place& p, std::span<const double>) {
+    const double most = std::max({std::abs(p.x[0]), std::abs(p.x[1]), std::abs(p.x[2])});
+    return 1 / (24 * most * most * most);
+  };
+  h.words = [blame](std::span<const double>) {
+    return "points of the cube outside the ball are not rejected, where " + blame.function +
+           " is that of the ball";
+  };
+  list.push_back(std::move(h));
 }
 
 /// Turned around the normal (or any axis of a map) by an angle of its own.
@@ -272,6 +290,10 @@ std::pair<Vec3, Vec3> mean_directions(const ViewEvidence& view) {
   return {of_samples, of_pdf};
 }
 
+std::vector<double> scaled_to_numbers(const Vec3& axis, double angle) {
+  return {angle * axis[0], angle * axis[1], angle * axis[2]};
+}
+
 /// The whole density turned around any axis: samples around one axis, the pdf around another.
 void add_turned_as_a_whole(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
                            const Blame& blame, const Asked& ask) {
@@ -280,26 +302,38 @@ void add_turned_as_a_whole(std::vector<Hypothesis>& list, const ReportEvidence& 
   const Vec3 from = normalized(means.first), to = normalized(means.second);
   const Vec3 normal = cross(from, to);
   constexpr double kApart = 0.02;
-  if (!(length(normal) > kApart)) return;
-  const Vec3 axis = normalized(normal);
-  const double angle = std::atan2(length(normal), dot(from, to));
+  const bool apart = length(normal) > kApart;
   Hypothesis h;
   h.kind = CauseKind::tangent_frame;
   h.complexity = 1;
-  h.starts = {{angle * axis[0], angle * axis[1], angle * axis[2]}};
+  if (apart) {
+    const double angle = std::atan2(length(normal), dot(from, to));
+    h.starts = {scaled_to_numbers(normalized(normal), angle)};
+  } else {
+    // Around the axis that they share.
+    for (const double angle : {0.4, 0.8, 1.2, 1.57, 2.0, 2.4, 2.8}) {
+      h.starts.push_back(scaled_to_numbers(to, angle));
+      h.starts.push_back(scaled_to_numbers(to, -angle));
+    }
+  }
   // The numbers are measured, and only made more precise by the fit.
-  h.charge = [](const auto&) { return std::optional(5.0 - 3 * kPerNumber); };
+  // A map that is turned by a column, which is likelier, costs less.
+  h.charge = [](const auto&) { return std::optional(13.0 - 3 * kPerNumber); };
   h.prediction = [ask](const Place& p, std::span<const double> n) {
     const Vec3 r{n[0], n[1], n[2]};
     const double by = length(r);
     return ask(p, by > 0 ? turned_around(p.x, scaled(r, 1 / by), by) : p.x);
   };
-  h.words = [blame, from, to](std::span<const double>) {
+  h.words = [blame, from, to, apart](std::span<const double>) {
     const auto text = [](const Vec3& w) {
       std::string all;
       for (const double c : w) all += (all.empty() ? "" : ", ") + number(std::round(1e3 * c) / 1e3);
       return all;
     };
+    if (!apart) {
+      return blame.function + " is turned around its own axis, (" + text(to) +
+             "), against sample: their frames differ";
+    }
     return "samples lie around (" + text(from) + "), " + blame.function + " is the same around (" +
            text(to) + "): their frames differ";
   };
@@ -346,7 +380,7 @@ std::vector<Hypothesis> argument_hypotheses(const ReportEvidence& evidence, cons
   } else if (domain.directions()) {
     const bool bsdf = view.bsdf != nullptr && has_wo(view);
     if (bsdf) {
-      add_swapped(list, blame, of_value);
+      add_swapped(list, blame, of_value, view.eta);
       add_axes_exchanged(list, blame, of_value);
     }
     add_mirrored_directions(list, blame, ask);
@@ -357,6 +391,7 @@ std::vector<Hypothesis> argument_hypotheses(const ReportEvidence& evidence, cons
       if (view.stray_share > 0) add_turned_as_a_whole(list, evidence, blame, ask);
     } else {
       add_turned_as_a_whole(list, evidence, blame, ask);
+      if (!of_value) add_corners_of_cube(list, blame);
     }
   } else {
     add_mirrored_points(list, domain, blame, ask);

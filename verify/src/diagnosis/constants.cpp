@@ -50,7 +50,13 @@ bool draws_again(const Observations& observations, const Numbers& numbers, doubl
     if (numbers[v][0] < -error) return false;
     lacks = lacks || numbers[v][0] > 2 * error;
   }
-  return lacks;
+  // What is the same from everywhere is a constant, not what a horizon cuts off.
+  double low = numbers.front()[0], high = low;
+  for (const auto& of_view : numbers) {
+    low = std::min(low, of_view[0]);
+    high = std::max(high, of_view[0]);
+  }
+  return lacks && (numbers.size() == 1 || high - low > 2 * error);
 }
 
 /// The constant that the whole of one view asks for, by its masses or counts or exact ratios.

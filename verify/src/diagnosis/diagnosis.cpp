@@ -142,6 +142,7 @@ class Diagnosis {
     const Blame blame{"pdf()", "the density of the samples"};
     if (all_rejected(evidence_)) return {};
     if (auto cause = explain_strays(evidence_, density)) return *cause;
+    if (const auto f = find_rounded_cap(evidence_)) return named(*f);
     if (auto cause = of_atoms(density)) return *cause;
     const auto all = all_hypotheses(evidence_, blame, density, false);
     auto found = explain(density, all);
@@ -241,7 +242,11 @@ class Diagnosis {
                     [](const ViewEvidence& v) { return v.stray_share > 0; })) {
       return std::nullopt;
     }
+    const Parts parts = parts_of(*evidence_.views.front().pair);
+    // At least one part in as many of each is sampled.
+    const double most = parts.borders.empty() ? 1 : 1 - 0.5 / static_cast<double>(parts.count());
     const double never = never_sampled();
+    if (never > most) return std::nullopt;
     if (never > 0.02 && excess > kCertain && choice_is_used_again(*evidence_.views.front().pair)) {
       return Cause{CauseKind::numbers_reused,
                    "no sample falls where " + number(std::round(1e3 * never) / 10) +

@@ -332,6 +332,30 @@ std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence) 
   return std::nullopt;
 }
 
+std::optional<Finding> find_rounded_cap(const ReportEvidence& evidence) {
+  constexpr double kStep = 0x1p-24, kMostSteps = 2000, kWhole = 1e-3;
+  const ViewEvidence& view = evidence.views.front();
+  if (!view.failed || view.wo || !(view.pair->epsilon > 0x1p-40)) return std::nullopt;
+  if (!view.pair->domain.directions()) return std::nullopt;
+  double least = 1e300, most = 0;
+  for (const SampleRecord& s : draw_samples(view, 64)) {
+    const double pdf = pdf_at(view, s.x);
+    if (!(pdf > 0)) continue;
+    least = std::min(least, pdf);
+    most = std::max(most, pdf);
+  }
+  if (!(most > 0) || least < most * (1 - 1e-5)) return std::nullopt;
+  const double steps = 1 / (2 * std::numbers::pi * most * kStep);
+  if (!(steps > 0.5) || steps > kMostSteps ||
+      std::abs(steps - std::round(steps)) > kWhole * steps) {
+    return std::nullopt;
+  }
+  return Finding{CauseKind::precision,
+                 "1/pdf() is a solid angle of 2π · " + number(std::round(steps)) +
+                     " · 2⁻²⁴: 1 − cosθ was taken in float, of a cosine next to 1; write it as "
+                     "2 sin²(θ/2)"};
+}
+
 std::optional<Finding> find_not_finite(const ReportEvidence& evidence) {
   constexpr int kSamples = 4096;
   const auto bad = [](double x) { return !std::isfinite(x) || x < 0; };

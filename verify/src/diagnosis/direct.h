@@ -27,6 +27,9 @@ std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence);
 /// Atoms that are drawn another share of times than the mass that they state.
 std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence);
 
+/// A cap's even density whose solid angle is 2π times a few roundings of 1 in float.
+std::optional<Finding> find_rounded_cap(const ReportEvidence& evidence);
+
 /// NaN, infinity or a negative density.
 std::optional<Finding> find_not_finite(const ReportEvidence& evidence);
 

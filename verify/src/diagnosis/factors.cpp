@@ -41,14 +41,17 @@ void add_of_directions(std::vector<Factor>& list, bool bsdf) {
   list.push_back({cosine, CauseKind::cosine, [](const Place& p) { return std::abs(p.x[2]); }});
   list.push_back(
       {"sinθ", CauseKind::sine, [](const Place& p) { return std::hypot(p.x[0], p.x[1]); }});
-  if (bsdf) return;
-  // Of another pole: lights and maps are written with y up as often as not.
+  // Of another pole: lights and maps are written with y up as often as not, fibres lie along x or
+  // y.
   for (const std::size_t axis : {std::size_t{1}, std::size_t{0}}) {
     const std::string of = axis == 1 ? " from the y axis" : " from the x axis";
-    list.push_back({"cosθ" + of, CauseKind::cosine,
-                    [axis](const Place& p) { return std::abs(p.x[axis]); }, 3});
+    if (!bsdf) {
+      list.push_back({"cosθ" + of, CauseKind::cosine,
+                      [axis](const Place& p) { return std::abs(p.x[axis]); }, 3});
+    }
     list.push_back(
-        {"sinθ" + of, CauseKind::sine,
+        {bsdf ? "cosine of the inclination to the fibre (sinθ" + of + ")" : "sinθ" + of,
+         bsdf ? CauseKind::cosine : CauseKind::sine,
          [axis](const Place& p) { return std::sqrt(std::max(0.0, 1 - p.x[axis] * p.x[axis])); },
          3});
   }
@@ -203,6 +206,24 @@ bool sees_both_sides(const Observations& observations) {
   return same && other;
 }
 
+/// Whether a factor is another one in one place than in the next: else it is a constant, and not
+/// its business.
+bool varies(const Factor& f, const Observations& observations) {
+  constexpr double kLittle = 0.01;
+  double low = 1e300, high = 0;
+  const auto look = [&](const Place& p) {
+    const double value = f.value(p);
+    if (!(value > 0) || !std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  };
+  for (const ViewObservations& v : observations.views()) {
+    for (const ExactPoint& p : v.exact) look(p.place);
+    for (const CountedBin& b : v.bins) look(b.nodes[b.nodes.size() / 2]);
+  }
+  return high > (1 + kLittle) * low;
+}
+
 std::vector<Factor> factors_of(const ReportEvidence& evidence, const Observations& observations) {
   std::vector<Factor> list;
   const ViewEvidence& view = evidence.views.front();
@@ -300,7 +321,8 @@ Hypothesis hypothesis_of(std::vector<std::pair<Factor, double>> terms, bool with
 std::vector<Hypothesis> factor_hypotheses(const ReportEvidence& evidence, const Blame& blame,
                                           const Observations& observations) {
   constexpr double kPowers[] = {1, -1, 2, -2, 0.5, -0.5};
-  const std::vector<Factor> factors = factors_of(evidence, observations);
+  std::vector<Factor> factors = factors_of(evidence, observations);
+  std::erase_if(factors, [&](const Factor& f) { return !f.alone && !varies(f, observations); });
   const double error = error_of_constant(observations);
   std::vector<Hypothesis> list;
   for (const Factor& f : factors) {

@@ -16,20 +16,24 @@ void add_planar_light(std::vector<Hypothesis>& list, const Blame& blame) {
   struct Form {
     double power;
     const char* words;
+    double of_receiver = 0;  // power of the cosine at the shaded point, whose normal is z
   };
-  const Form forms[] = {{-3, "density per area in place of solid angle in "},
-                        {-2, "r² missing from "},
-                        {-1, "cosθ at the light missing from "},
-                        {1, "cosθ at the light too many in "},
-                        {-4, "cosθ at the light multiplied instead of divided, and no r², in "},
-                        {2, "cosθ at the light multiplied instead of divided in "}};
+  const Form forms[] = {
+      {-3, "density per area in place of solid angle in "},
+      {-2, "r² missing from "},
+      {-1, "cosθ at the light missing from "},
+      {1, "cosθ at the light too many in "},
+      {-4, "cosθ at the light multiplied instead of divided, and no r², in "},
+      {2, "cosθ at the light multiplied instead of divided in "},
+      {-1, "the cosine of the shaded point in place of that of the light in ", 1}};
   for (const Form& f : forms) {
     const auto add = [&](Starts starts, double complexity, bool fixed, std::size_t axis) {
       Hypothesis h;
       h.kind = CauseKind::distance_or_area;
       h.complexity = complexity;
       h.starts = std::move(starts);
-      h.prediction = [=, power = f.power](const Place& p, std::span<const double> n) {
+      h.prediction = [=, power = f.power, receiver = f.of_receiver](const Place& p,
+                                                                    std::span<const double> n) {
         double c = 0;
         if (fixed) {
           c = std::abs(p.x[axis]);
@@ -38,7 +42,7 @@ void add_planar_light(std::vector<Hypothesis>& list, const Blame& blame) {
           c = std::abs(s * std::cos(n[2]) * p.x[0] + s * std::sin(n[2]) * p.x[1] +
                        std::cos(n[1]) * p.x[2]);
         }
-        return p.base * std::exp(n[0]) * std::pow(c, power);
+        return p.base * std::exp(n[0]) * std::pow(c, power) * std::pow(std::abs(p.x[2]), receiver);
       };
       h.words = [=, text = std::string(f.words)](std::span<const double>) {
         return text + blame.function + " (a planar light)";

@@ -145,6 +145,16 @@ void add_bins(const ViewEvidence& view, ViewObservations& out) {
   }
 }
 
+std::vector<const CountedBin*> in_order_of_edges(const std::vector<CountedBin>& bins) {
+  std::vector<const CountedBin*> order;
+  for (const bool edge : {false, true}) {
+    for (const CountedBin& b : bins) {
+      if (b.edge == edge) order.push_back(&b);
+    }
+  }
+  return order;
+}
+
 /// Sum of squares of one view's pulls against its distribution, and the worst of them.
 class Pulls {
  public:
@@ -294,6 +304,7 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
     return fit;
   }
   if (o.judge_strays) {
+    ++fit.tested;
     double explained = 0;
     for (const Vec3& x : o.view->strays) {
       explained += prediction({o.view, o.view->wo.value_or(Vec3{}), x, 0}, numbers) > 0 ? 1 : 0;
@@ -313,21 +324,23 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
   const double n = o.view->samples;
   double total = 0, variance = 0;
   bool varies = false;
-  for (const CountedBin& bin : o.bins) {
+  // Bins with a border last: where a prediction varies, their nodes say little.
+  for (const CountedBin* b : in_order_of_edges(o.bins)) {
+    const CountedBin& bin = *b;
     const BinPrediction p = predict(bin, prediction, numbers);
     if (std::isnan(p.expected)) {
       unknown = true;
       continue;
     }
+    varies = varies || p.varies;
     total += p.expected / n;
     variance += std::pow(std::max(0.0, p.error) / n, 2);
-    varies = varies || p.varies;
     // By what is predicted as well: of bins that hold about twice as much, those left would be the
     // ones that hold less by chance.
     const bool crowded = followed && (bin.observed > kCrowded * bin.expected ||
                                       p.expected > kPredicted * bin.expected);
     unknown = unknown || crowded;
-    if (!bin.judged || crowded || (bin.edge && p.varies)) continue;
+    if (!bin.judged || crowded || (bin.edge && varies)) continue;
     if (followed && p.error > kUneven * p.expected) continue;
     const double z = pull(bin, p);
     ++fit.tested;

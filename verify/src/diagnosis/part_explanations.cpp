@@ -332,6 +332,19 @@ std::optional<Finding> PartExplanations::by_parts(bool only_steady) {
         chosen + ", but pdf() weighs their densities by " + listed(shown->a)};
   }
   if (!shown->again) return std::nullopt;
+  // Parts of parts: each weighs its share times that of the piece, the share again. One other
+  // number for all is what is left where a part is never chosen.
+  double low = 1e300, high = 0, share = 0;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    low = std::min(low, shown->a[i] / shares[i]);
+    high = std::max(high, shown->a[i] / shares[i]);
+    share = std::max(share, shares[i]);
+  }
+  if (high - low < 1e-3 * high && high > 1.2 * share && !shown->pieces) {
+    return Finding{CauseKind::support, chosen + ", which is " +
+                                           number(std::round(1e3 * high) / 10) +
+                                           " % of pdf(): where the rest of it is, no sample falls"};
+  }
   return Finding{CauseKind::numbers_reused,
                  chosen +
                      " and is used again in it without being stretched to [0, 1): pdf() "

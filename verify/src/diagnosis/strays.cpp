@@ -71,7 +71,9 @@ std::optional<Cause> explain_strays(const ReportEvidence& evidence, const Observ
       beyond += v.pair->domain.directions() && other ? 1 : 0;
     }
   }
-  if (strays == 0) return std::nullopt;
+  // All of them: samples lie on the other side, or somewhere else.
+  constexpr double kAll = 0.98;
+  if (strays == 0 || share > kAll) return std::nullopt;
   const Observations inside = density.without_strays();
   if (!inside.judge(as_stated).admissible) return of_overshoot(evidence, inside, strays, share);
   const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
