@@ -56,13 +56,16 @@ class LeastSquares {
     return all;
   }
 
-  /// From here on, what is far off at p is left aside.
-  void ignore_far_off(const Numbers& p) {
-    ignored_ = far_off(observations_.residuals(prediction_, p, view_, false));
+  /// From here on, what is far off at p is left aside. Whether that is something else than before.
+  bool ignore_far_off(const Numbers& p) {
+    std::vector<bool> far = far_off(observations_.residuals(prediction_, p, view_, false));
+    if (far == ignored_) return false;
+    ignored_ = std::move(far);
+    return true;
   }
 
   Numbers descend(Numbers p, bool flatten, int most) const {
-    constexpr double kGaveUp = 1e7;
+    constexpr double kGaveUp = 1e7, kHopeless = 500;
     double damping = 1e-3;
     Numbers r = residuals(p, flatten);
     double cost = squares(r);
@@ -86,7 +89,10 @@ class LeastSquares {
       Numbers then = residuals(moved, flatten);
       const double lower = squares(then);
       if (lower < cost) {
-        const bool settled = lower > (1 - 1e-6) * cost || largest < 1e-14;
+        // What stays far off without getting nearer fast is no cause: most hypotheses end here.
+        const bool hopeless = flatten && step >= 2 && lower > 0.5 * cost &&
+                              lower > kHopeless * static_cast<double>(r.size());
+        const bool settled = hopeless || lower > (1 - 1e-6) * cost || largest < 1e-14;
         p = std::move(moved);
         r = std::move(then);
         cost = lower;
@@ -162,7 +168,7 @@ std::vector<double> fit_parameters(const Observations& observations, const Predi
   if (squares_of_most(left) > kNear * static_cast<double>(left.size())) return best;
   // Once more from there: what is far off is known better, and steep points come into their own.
   for (int round = 0; round < 2; ++round) {
-    problem.ignore_far_off(best);
+    if (!problem.ignore_far_off(best) && round > 0) break;
     best = problem.descend(std::move(best), false, 25);
   }
   return best;
