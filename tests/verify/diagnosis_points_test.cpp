@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "diagnosis_cases.h"
+#include "vec3.h"
 
 /// Faults of warps, maps and lights, named for what they are.
 namespace plumbline::verify {
@@ -142,6 +143,55 @@ std::vector<FaultyCase> points() {
                         [](const Vec3&) { return 1 / (4 * kPi); })));
   return list;
 }
+
+/// Choices out of sets, random numbers that enter as a power, records without a probability.
+std::vector<FaultyCase> choices_and_numbers() {
+  using K = CauseKind;
+  std::vector<FaultyCase> list;
+  const std::vector<double> shares{0.1, 0.2, 0.3, 0.4};
+  const auto item_at = [shares](double u) {
+    std::size_t i = 0;
+    while (i + 1 < shares.size() && u >= shares[i]) u -= shares[i++];
+    return Vec3{static_cast<double>(i), 0, 0};
+  };
+  const auto set = [&](const char* name, K kind, const std::function<double(std::size_t)>& pmf) {
+    list.push_back(of(
+        name, kind,
+        sampling_pair<Vec3>("", Domain::discrete(shares.size()), item_at,
+                            [pmf](const Vec3& x) { return pmf(static_cast<std::size_t>(x[0])); })));
+  };
+  set("pmf without the weight", K::choice_probability, [](std::size_t) { return 0.25; });
+  set("pmf of another item's weight", K::choice_probability,
+      [shares](std::size_t i) { return shares[i] * shares[i] / 0.3; });
+  set("density of a table for its probability", K::constant,
+      [shares](std::size_t i) { return 4 * shares[i]; });
+  // Two levels, the number of the first not stretched for the second: the last of each way only.
+  list.push_back(of("tree, number not stretched", K::numbers_reused,
+                    sampling_pair<Vec3>(
+                        "", Domain::discrete(4),
+                        [](double u) {
+                          return Vec3{(u < 0.5 ? 0.0 : 2.0) + (u < 0.5 ? 0.0 : 1.0), 0, 0};
+                        },
+                        [](const Vec3& x) { return x[0] < 1 || x[0] > 2 ? 0.3 : 0.2; })));
+  // A cap around an axis of its own: u where u² belongs shows in no coordinate, but in u.
+  const Vec3 axis = unit({1, 2, 3});
+  const auto cap = [axis](double u, double v) {
+    const Vec3 s = unit(cross(axis, {1, 0, 0})), t = cross(axis, s);
+    const double c = 1 - 0.3 * u, r = std::sqrt(std::max(0.0, 1 - c * c));
+    const double x = r * std::cos(2 * kPi * v), y = r * std::sin(2 * kPi * v);
+    return Vec3{c * axis[0] + x * s[0] + y * t[0], c * axis[1] + x * s[1] + y * t[1],
+                c * axis[2] + x * s[2] + y * t[2]};
+  };
+  const auto even = [axis](const Vec3& w) {
+    return dot(w, axis) > 0.7 ? 1 / (2 * kPi * 0.3) : 0.0;
+  };
+  list.push_back(of("cap, number squared", K::radius,
+                    directions(
+                        "", [cap](double u, double v) { return cap(u * u, v); }, even)));
+  return list;
+}
+
+TEST(Diagnosis, NamesFaultsOfChoicesAndNumbers) { expect_named(choices_and_numbers()); }
 
 TEST(Diagnosis, NamesFaultsOfWarpsMapsAndLights) { expect_named(points()); }
 
