@@ -313,7 +313,8 @@ class Diagnosis {
           }
         }
       }
-      if (tested > 8 && matching == tested) {
+      // A point where rounding is more than its estimate says nothing against all the others.
+      if (tested > 8 && 50 * (tested - matching) <= tested) {
         return Cause{CauseKind::chosen_lobe_only,
                      weighed ? "one lobe's part stands for that of the whole mixture"
                              : "the pdf of the chosen lobe stands in the place of the mixture's",
