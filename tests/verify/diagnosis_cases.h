@@ -69,7 +69,7 @@ inline Cause cause_of(const SamplingPair& pair, std::uint64_t seed) {
   return diagnose({{judge_pair(pair, options).view}, {}, {}});
 }
 
-inline FaultyCase of(std::string name, CauseKind right, SamplingPair pair) {
+inline FaultyCase of(std::string name, CauseKind right, const SamplingPair& pair) {
   return {std::move(name), right, [pair](std::uint64_t seed) { return cause_of(pair, seed); }};
 }
 

@@ -7,8 +7,8 @@
 
 #include "corpus.h"
 
-/// PLUMBLINE_FAULTS_OFF in the environment switches all faults of this set off: the same code, put up
-/// as correct.
+/// PLUMBLINE_FAULTS_OFF in the environment switches all faults of this set off: the same code, put
+/// up as correct.
 namespace plumbline::tests::corpus::fresh {
 
 inline bool faults_off() {

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "diagnosis/evidence.h"
+#include "streams.h"
 
 /// The questions that a diagnosis asks of code under test.
 namespace plumbline::verify {
@@ -45,6 +47,28 @@ inline bool is_finite(const Vec3& x) {
 /// A sample that is neither rejected nor an atom, nor at a point that is none.
 inline bool has_density(const std::optional<SampleRecord>& sample) {
   return sample && sample->mass == 0 && is_finite(sample->x);
+}
+
+/// A few views, failing ones first: they show what went wrong.
+inline std::vector<const ViewEvidence*> views_to_ask(const ReportEvidence& evidence) {
+  constexpr std::size_t kViewsAsked = 4;
+  std::vector<const ViewEvidence*> views;
+  for (const bool failed : {true, false}) {
+    for (const ViewEvidence& v : evidence.views) {
+      if (v.failed == failed && views.size() < kViewsAsked) views.push_back(&v);
+    }
+  }
+  return views;
+}
+
+inline std::vector<SampleRecord> draw_samples(const ViewEvidence& view, int count) {
+  Random random = random_for(Stream::asked);
+  std::vector<SampleRecord> samples;
+  for (int i = 0; i < count; ++i) {
+    const auto s = view.pair->next(random);
+    if (s && is_finite(s->x)) samples.push_back(*s);
+  }
+  return samples;
 }
 
 }  // namespace plumbline::verify

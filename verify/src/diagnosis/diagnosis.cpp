@@ -20,22 +20,6 @@ namespace {
 /// Another explanation is close where it has as many free numbers.
 constexpr double kClose = 30;
 
-std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Blame& blame,
-                                       const Observations& observations, bool of_value) {
-  std::vector<Hypothesis> all;
-  const auto add = [&all](std::vector<Hypothesis> more) {
-    std::move(more.begin(), more.end(), std::back_inserter(all));
-  };
-  add(constant_hypotheses(evidence, blame, observations));
-  add(factor_hypotheses(evidence, blame, observations));
-  add(argument_hypotheses(evidence, blame, of_value));
-  add(parametric_hypotheses(evidence, blame, observations));
-  add(light_hypotheses(evidence, blame));
-  if (!of_value) add(number_hypotheses(evidence, blame));
-  if (!of_value) add(mixture_hypotheses(evidence, blame, observations));
-  return all;
-}
-
 /// Kinds of f and weights for factors that were looked for in a density.
 CauseKind of_value(CauseKind kind) {
   switch (kind) {

@@ -147,4 +147,20 @@ std::string usual_constant(double value, double error) {
   return found == 1 ? name : std::string();
 }
 
+std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Blame& blame,
+                                       const Observations& observations, bool of_value) {
+  std::vector<Hypothesis> all;
+  const auto add = [&all](std::vector<Hypothesis> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(all));
+  };
+  add(constant_hypotheses(evidence, blame, observations));
+  add(factor_hypotheses(evidence, blame, observations));
+  add(argument_hypotheses(evidence, blame, of_value));
+  add(parametric_hypotheses(evidence, blame, observations));
+  add(light_hypotheses(evidence, blame));
+  if (!of_value) add(number_hypotheses(evidence, blame));
+  if (!of_value) add(mixture_hypotheses(evidence, blame, observations));
+  return all;
+}
+
 }  // namespace plumbline::verify

@@ -92,4 +92,8 @@ std::vector<Hypothesis> light_hypotheses(const ReportEvidence& evidence, const B
 std::vector<Hypothesis> parametric_hypotheses(const ReportEvidence& evidence, const Blame& blame,
                                               const Observations& observations);
 
+/// All of these; of a density also what numbers and mixtures tell.
+std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Blame& blame,
+                                       const Observations& observations, bool of_value);
+
 }  // namespace plumbline::verify

@@ -12,7 +12,6 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr std::size_t kExactPerView = 400;
 // Points and bins of all views that a fit looks at: at first, and in the end.
 constexpr std::size_t kFewFitted = 40;
 constexpr std::size_t kMostFitted = 240;
@@ -91,60 +90,6 @@ double pull(const CountedBin& bin, const BinPrediction& p) {
   return own / std::hypot(1.0, other);
 }
 
-bool usable(double ratio, double base) {
-  return ratio > 0 && std::isfinite(ratio) && base > 0 && std::isfinite(base);
-}
-
-void add_series(const ViewEvidence& view, const RatioSeries& series, int lobe,
-                ViewObservations& out) {
-  std::vector<const RatioAt*> points;
-  for (const RatioAt& p : series.points) {
-    if (p.lobe == lobe || lobe < 0) points.push_back(&p);
-  }
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kExactPerView);
-  for (std::size_t i = 0; i < points.size(); i += step) {
-    const RatioAt& p = *points[i];
-    ExactPoint e;
-    e.place = {&view, view.wo.value_or(Vec3{}), p.x, 0, p.u ? &*p.u : nullptr};
-    switch (series.kind) {
-      case RatioKind::weight_over_value:
-        e.place.base = value_at(view, p.x);
-        break;
-      case RatioKind::lobe_density_over_pdf:
-        e.place.base = view.pair->lobes[static_cast<std::size_t>(p.lobe)].pdf(p.x);
-        break;
-      default:
-        e.place.base = pdf_at(view, p.x);
-    }
-    e.ratio = p.ratio;
-    e.error = p.error;
-    if (usable(e.ratio, e.place.base)) out.exact.push_back(e);
-  }
-}
-
-void add_bins(const ViewEvidence& view, ViewObservations& out) {
-  for (const BinSeen& seen : view.bins) {
-    if (seen.nodes.empty() || !(seen.expected > 0)) continue;
-    CountedBin bin;
-    bin.observed = seen.observed;
-    bin.expected = seen.expected;
-    bin.expected_error = seen.expected_error;
-    bin.shares = seen.shares;
-    bin.measures = seen.measures;
-    bin.samples = view.samples;
-    for (const Vec3& x : seen.nodes) {
-      bin.nodes.push_back({&view, view.wo.value_or(Vec3{}), x, pdf_at(view, x)});
-      if (bin.nodes.back().base > 0) continue;
-      bin.edge = true;
-      if (!view.strays.empty()) bin.judged = false;
-    }
-    // Nodes that all fall beside the support show nothing of the bin.
-    bin.judged = bin.judged && std::any_of(bin.nodes.begin(), bin.nodes.end(),
-                                           [](const Place& p) { return p.base > 0; });
-    out.bins.push_back(std::move(bin));
-  }
-}
-
 std::vector<const CountedBin*> in_order_of_edges(const std::vector<CountedBin>& bins) {
   std::vector<const CountedBin*> order;
   for (const bool edge : {false, true}) {
@@ -175,37 +120,6 @@ class Pulls {
 };
 
 }  // namespace
-
-Observations Observations::of_density(const ReportEvidence& evidence) {
-  Observations all;
-  for (const ViewEvidence& view : evidence.views) {
-    ViewObservations o;
-    o.view = &view;
-    for (const RatioSeries& s : view.ratios) {
-      if (s.kind == RatioKind::density_over_pdf) add_series(view, s, -1, o);
-    }
-    add_bins(view, o);
-    o.judge_mass = view.mass.has_value() && !view.bins.empty();
-    o.judge_strays = !view.strays.empty();
-    all.views_.push_back(std::move(o));
-  }
-  all.prepare();
-  return all;
-}
-
-Observations Observations::of_series(const ReportEvidence& evidence, RatioKind kind, int lobe) {
-  Observations all;
-  for (const ViewEvidence& view : evidence.views) {
-    ViewObservations o;
-    o.view = &view;
-    for (const RatioSeries& s : view.ratios) {
-      if (s.kind == kind) add_series(view, s, lobe, o);
-    }
-    all.views_.push_back(std::move(o));
-  }
-  all.prepare();
-  return all;
-}
 
 Observations Observations::without_strays() const {
   Observations less = *this;
