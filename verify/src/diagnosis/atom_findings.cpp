@@ -35,6 +35,7 @@ std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence) {
 std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence) {
   constexpr int kSamples = 20'000;
   constexpr double kSame = 1e-4, kCertain = 7;
+  constexpr std::size_t kMostAtoms = 7;
   struct Seen {
     Vec3 x{};
     double mass = 0, count = 0;
@@ -43,7 +44,7 @@ std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence) 
     if (!v.failed || v.pair->domain.dimension() == 0) continue;
     std::vector<Seen> atoms;
     Random random = random_for(Stream::atom_shares);
-    for (int i = 0; i < kSamples && atoms.size() < 8; ++i) {
+    for (int i = 0; i < kSamples && atoms.size() <= kMostAtoms; ++i) {
       const auto s = v.pair->next(random);
       if (!s || !(s->mass > 0) || !is_finite(s->x)) continue;
       const auto same = std::find_if(atoms.begin(), atoms.end(), [&s](const Seen& a) {
@@ -55,6 +56,7 @@ std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence) 
         ++same->count;
       }
     }
+    if (atoms.size() > kMostAtoms) continue;  // far too many, and not all draws were looked at
     const auto pull = [](const Seen& a, double mass) {
       const double p = std::clamp(mass, 0.0, 1.0);
       return (a.count - kSamples * mass) / std::sqrt(kSamples * p * (1 - p) + 1);

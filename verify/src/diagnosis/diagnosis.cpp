@@ -212,8 +212,9 @@ class Diagnosis {
     constexpr double kCertain = 7;
     // A number that chooses and is used again, wrongly, breaks symmetries just so.
     if (excess < kCertain && samples_break_a_symmetry(evidence_) &&
-        std::none_of(evidence_.views.begin(), evidence_.views.end(),
-                     [](const ViewEvidence& v) { return choice_is_used_again(*v.pair); })) {
+        std::none_of(evidence_.views.begin(), evidence_.views.end(), [](const ViewEvidence& v) {
+          return choice_is_used_again(*v.pair, parts_of(*v.pair));
+        })) {
       return Cause{CauseKind::tangent_frame,
                    "samples lie unevenly to the left and right of the plane of incidence, where "
                    "pdf() is the same, and are nowhere denser than it says: they are drawn in "
@@ -222,16 +223,17 @@ class Diagnosis {
                    CauseKind::none};
     }
     // A part of a part lies in it.
-    if (std::any_of(evidence_.views.begin(), evidence_.views.end(),
+    if (!(excess > kCertain) ||
+        std::any_of(evidence_.views.begin(), evidence_.views.end(),
                     [](const ViewEvidence& v) { return v.stray_share > 0; })) {
       return std::nullopt;
     }
-    const Parts parts = parts_of(*evidence_.views.front().pair);
+    const SamplingPair& pair = *evidence_.views.front().pair;
+    const Parts parts = parts_of(pair);
     // At least one part in as many of each is sampled.
     const double most = parts.borders.empty() ? 1 : 1 - 0.5 / static_cast<double>(parts.count());
     const double never = never_sampled();
-    if (never > most) return std::nullopt;
-    if (never > 0.02 && excess > kCertain && choice_is_used_again(*evidence_.views.front().pair)) {
+    if (never > 0.02 && never <= most && choice_is_used_again(pair, parts)) {
       return Cause{CauseKind::numbers_reused,
                    "no sample falls where " + number(std::round(1e3 * never) / 10) +
                        " % of pdf() is, and more than expected elsewhere: a number that has chosen "

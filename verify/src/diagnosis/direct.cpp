@@ -110,21 +110,26 @@ constexpr double kCrowd = 0.005;
 constexpr double kClose = 0x1p-12;
 constexpr double kBeside = 1e-5;
 
+Vec3 most_frequent_point(const std::vector<SampleRecord>& samples) {
+  std::map<Vec3, int> counts;
+  for (const SampleRecord& s : samples) ++counts[s.x];
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? Vec3{} : most->first;
+}
+
 /// Samples around the point where most of them lie have cosines to it that are 1 − k 2⁻²⁴ for whole
 /// numbers k: their cosine was a float before it became a direction.
 bool steps_of_rounding(const ViewEvidence& view) {
   constexpr int kSamples = 8192;
   constexpr double kStep = 0x1p-24, kWhole = 0.1, kMostSteps = 4096;
   if (!view.pair->domain.directions()) return false;
-  std::map<Vec3, int> counts;
   const auto samples = draw_samples(view, kSamples);
-  for (const SampleRecord& s : samples) ++counts[s.x];
-  const auto most =
-      std::max_element(counts.begin(), counts.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  const Vec3 most = most_frequent_point(samples);
   double tested = 0, whole = 0;
   for (const SampleRecord& s : samples) {
-    const Vec3 d = sum(s.x, scaled(most->first, -1));
+    const Vec3 d = sum(s.x, scaled(most, -1));
     const double steps = dot(d, d) / 2 / kStep;
     // Rounding of the direction itself moves it by about √(2 steps) of these per 2⁻²⁴.
     if (!(steps > 0.25) || steps > kMostSteps) continue;
@@ -158,14 +163,10 @@ std::array<std::vector<double>, 3> coordinates_of_samples(const ViewEvidence& vi
 std::optional<Finding> of_made_up_density(const ViewEvidence& view, const std::string& where) {
   constexpr int kSamples = 4096;
   constexpr double kOther = 0.01;
-  std::map<Vec3, int> counts;
   const auto samples = draw_samples(view, kSamples);
-  for (const SampleRecord& s : samples) ++counts[s.x];
-  const auto most =
-      std::max_element(counts.begin(), counts.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  const Vec3 most = most_frequent_point(samples);
   for (const SampleRecord& s : samples) {
-    if (s.x != most->first || s.mass > 0 || !s.pdf) continue;
+    if (s.x != most || s.mass > 0 || !s.pdf) continue;
     const double pdf = pdf_at(view, s.x);
     if (std::abs(*s.pdf - pdf) <= kOther * std::max(*s.pdf, pdf)) return std::nullopt;
     return Finding{CauseKind::atom_as_density,

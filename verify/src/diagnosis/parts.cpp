@@ -116,8 +116,7 @@ Parts parts_of(const SamplingPair& pair) {
   return best;
 }
 
-bool choice_is_used_again(const SamplingPair& pair) {
-  const Parts parts = parts_of(pair);
+bool choice_is_used_again(const SamplingPair& pair, const Parts& parts) {
   if (parts.borders.empty() && can_be_taken_apart(pair)) return true;  // texels, far too many
   for (std::size_t i = 0; parts.count() > 1 && i < parts.count(); ++i) {
     if (PartMap(pair, parts, i).uses_chooser()) return true;

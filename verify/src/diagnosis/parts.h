@@ -66,6 +66,6 @@ class PartMap {
 };
 
 /// The number that chooses a part moves samples in one of the parts as well.
-bool choice_is_used_again(const SamplingPair& pair);
+bool choice_is_used_again(const SamplingPair& pair, const Parts& parts);
 
 }  // namespace plumbline::verify
