@@ -90,16 +90,6 @@ double pull(const CountedBin& bin, const BinPrediction& p) {
   return own / std::hypot(1.0, other);
 }
 
-std::vector<const CountedBin*> in_order_of_edges(const std::vector<CountedBin>& bins) {
-  std::vector<const CountedBin*> order;
-  for (const bool edge : {false, true}) {
-    for (const CountedBin& b : bins) {
-      if (b.edge == edge) order.push_back(&b);
-    }
-  }
-  return order;
-}
-
 /// Sum of squares of one view's pulls against its distribution, and the worst of them.
 class Pulls {
  public:
@@ -137,6 +127,7 @@ Observations Observations::inverted() const {
   Observations turned = *this;
   for (ViewObservations& v : turned.views_) {
     v.bins.clear();
+    v.edges_last.clear();
     for (ExactPoint& p : v.exact) {
       p.place.base *= p.ratio;
       p.ratio = 1 / p.ratio;
@@ -148,7 +139,11 @@ Observations Observations::inverted() const {
 void Observations::prepare() {
   exact_ = bins_ = 0;
   std::vector<double> contradiction;
-  for (const ViewObservations& v : views_) {
+  for (ViewObservations& v : views_) {
+    v.edges_last.resize(v.bins.size());
+    std::iota(v.edges_last.begin(), v.edges_last.end(), std::size_t{0});
+    std::stable_partition(v.edges_last.begin(), v.edges_last.end(),
+                          [&v](std::size_t i) { return !v.bins[i].edge; });
     exact_ += v.exact.size();
     bins_ += v.bins.size();
     double sum = 0;
@@ -239,8 +234,8 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
   double total = 0, variance = 0;
   bool varies = false;
   // Bins with a border last: where a prediction varies, their nodes say little.
-  for (const CountedBin* b : in_order_of_edges(o.bins)) {
-    const CountedBin& bin = *b;
+  for (const std::size_t i : o.edges_last) {
+    const CountedBin& bin = o.bins[i];
     const BinPrediction p = predict(bin, prediction, numbers);
     if (std::isnan(p.expected)) {
       unknown = true;

@@ -47,7 +47,8 @@ struct ViewObservations {
   const ViewEvidence* view = nullptr;
   std::vector<ExactPoint> exact;
   std::vector<CountedBin> bins;
-  bool judge_mass = false;  ///< ∫prediction + atoms + rejected = 1
+  std::vector<std::size_t> edges_last;  ///< the bins, those with a border at the end
+  bool judge_mass = false;              ///< ∫prediction + atoms + rejected = 1
   bool judge_strays = false;
 };
 
