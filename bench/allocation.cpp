@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 #include "scenes.h"
 
 namespace plumbline::bench {

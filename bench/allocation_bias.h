@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/assembly/render.h>
 #include "allocation_reference.h"
 #include "statistics.h"
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/renderer/render/direct.h>
-#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/assembly/render.h>
+#include <plumbline/renderer/core/render/direct.h>
 #include "allocation.h"
 #include "clock.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <plumbline/renderer/scene/scene.h>
+#include <plumbline/renderer/core/scene/scene.h>
 
 namespace plumbline::bench {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/render/exr.h>
-#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/assembly/render.h>
+#include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/reports/render_record.h>
 #include "allocation.h"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/bsdf/bsdf.h>
-#include <plumbline/renderer/sampling/pcg32.h>
+#include <plumbline/renderer/assembly/bsdf.h>
+#include <plumbline/renderer/core/sampling/pcg32.h>
 #include "plain_ggx.h"
 
 /// Nanoseconds per sample, eval + pdf, and all three, of every BSDF as rendered (in float, through

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/assembly/render.h>
 #include "clock.h"
 #include "publish.h"
 #include "scenes.h"

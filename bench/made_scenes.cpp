@@ -6,7 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include <plumbline/renderer/sampling/pcg32.h>
+#include <plumbline/renderer/assembly/bsdf.h>
+#include <plumbline/renderer/core/sampling/pcg32.h>
 
 namespace plumbline::bench {
 namespace {
@@ -25,7 +26,8 @@ SceneDescription scene_with_floor(int max_depth) {
   scene.camera.forward = {0, 0, -1};
   scene.camera.tan_half_fov_x = 0.35;
   scene.integrator.max_depth = max_depth;
-  scene.bsdfs = {renderer::Lambertian{{0.7f, 0.7f, 0.7f}}, renderer::Lambertian{{0, 0, 0}}};
+  scene.bsdfs = renderer::make_bsdfs(
+      {renderer::Lambertian{{0.7f, 0.7f, 0.7f}}, renderer::Lambertian{{0, 0, 0}}});
   scene.shapes.push_back(
       {renderer::RectangleShape{{-5, -1.2, 5}, {10, 0, 0}, {0, 0, -10}}, kGrey, {}});
   return scene;

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include <plumbline/renderer/bsdf/bsdf_sample.h>
+#include <plumbline/renderer/core/bsdf/bsdf_sample.h>
 
 namespace plumbline::bench {
 

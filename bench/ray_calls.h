@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <plumbline/renderer/scene/embree.h>
-#include <plumbline/renderer/scene/ray.h>
+#include <plumbline/renderer/core/scene/embree.h>
+#include <plumbline/renderer/core/scene/ray.h>
 
 namespace plumbline::bench {
 

@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/assembly/render.h>
+#include <plumbline/renderer/core/scene/geometry.h>
 #include "backend_speed.h"
 #include "clock.h"
 #include "publish.h"
@@ -63,8 +64,8 @@ Shares measure(const ReplayedScene& replayed, int repetitions) {
   std::vector<double> render_times, replay_times, shares, one_wide_shares;
   for (int i = 0; i < repetitions; ++i) {
     render_times.push_back(seconds_of([&] { render(scene, options); }));
-    replay_times.push_back(seconds_of([&] { recorded.replay(scene.embree_scene()); }));
-    const double single = seconds_of([&] { one_wide.replay(scene.embree_scene()); });
+    replay_times.push_back(seconds_of([&] { recorded.replay(scene.geometry().embree_scene()); }));
+    const double single = seconds_of([&] { one_wide.replay(scene.geometry().embree_scene()); });
     shares.push_back(replay_times.back() / render_times.back());
     one_wide_shares.push_back(single / render_times.back());
   }

@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
-#include <plumbline/renderer/bsdf/bsdf.h>
-#include <plumbline/renderer/light/light.h>
-#include <plumbline/renderer/sampling/sampler.h>
+#include <plumbline/renderer/assembly/bsdf.h>
+#include <plumbline/renderer/core/light/light.h>
+#include <plumbline/renderer/core/sampling/sampler.h>
 
 /// Nanoseconds per sample, pdf and eval, as rendered: in float, through the variant.
 namespace plumbline::renderer {
@@ -20,8 +20,8 @@ void bsdf_eval_and_pdf(benchmark::State& state, std::uint32_t bsdf) {
   Pcg32 random(1, 0, 0);
   for (auto _ : state) {
     const Vec3f wi = square_to_uniform_hemisphere(random.next_2d());
-    benchmark::DoNotOptimize(kBsdfs.eval(bsdf, kWo, wi));
-    benchmark::DoNotOptimize(kBsdfs.pdf(bsdf, kWo, wi));
+    benchmark::DoNotOptimize(kBsdfs[bsdf].eval(kWo, wi));
+    benchmark::DoNotOptimize(kBsdfs[bsdf].pdf(kWo, wi));
   }
 }
 

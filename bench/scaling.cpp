@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/assembly/render.h>
 #include <plumbline/reports/power_fit.h>
 #include "publish.h"
 #include "scaling_point.h"

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/assembly/render.h>
 #include "clock.h"
 #include "made_scenes.h"
 #include "scaling.h"

@@ -3,8 +3,9 @@
 #include <utility>
 
 #include <plumbline/analytic/known_scene.h>
-#include <plumbline/renderer/render/render.h>
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/assembly/render.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 #include "made_scenes.h"
 
 namespace plumbline::bench {

@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/renderer/sampling/pcg32.h>
-#include <plumbline/renderer/scene/scene.h>
+#include <plumbline/renderer/core/sampling/pcg32.h>
+#include <plumbline/renderer/core/scene/geometry.h>
+#include <plumbline/renderer/core/scene/scene.h>
 #include "clock.h"
 #include "light_cost.h"
 #include "publish.h"
@@ -74,7 +75,7 @@ reports::RayCost compare(const Scene& scene, const std::vector<Ray>& rays, int w
   const RayCalls nearest = RayCalls::pack(rays, Query::nearest, width);
   const RayCalls occluded = RayCalls::pack(rays, Query::occluded, width);
   const auto time = [&](const RayCalls& calls) {
-    return 1e9 * seconds_of([&] { calls.replay(scene.embree_scene()); }) /
+    return 1e9 * seconds_of([&] { calls.replay(scene.geometry().embree_scene()); }) /
            static_cast<double>(rays.size());
   };
   std::vector<double> intersect_ns, occluded_ns, ratios;

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/assembly/render.h>
 #include "clock.h"
 #include "scenes.h"
 #include "statistics.h"

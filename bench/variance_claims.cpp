@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <utility>
 
-#include <plumbline/renderer/render/render.h>
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/assembly/render.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 #include "scenes.h"
 
 namespace plumbline::bench {

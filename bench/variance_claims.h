@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/render/strategy.h>
+#include <plumbline/renderer/core/render/strategy.h>
 #include <plumbline/reports/results.h>
 #include "statistics.h"
 

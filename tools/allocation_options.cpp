@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include <plumbline/renderer/render/exr.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/image_io/exr.h>
 
 #include "numbers.h"
 #include "render_values.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/assembly/render.h>
 
 #include "output_file.h"
 

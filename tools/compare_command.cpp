@@ -13,8 +13,9 @@
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
-#include <plumbline/renderer/render/exr.h>
-#include <plumbline/renderer/scene/description.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/core/scene/description.h>
+#include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/verify/image.h>
 
 #include "command.h"

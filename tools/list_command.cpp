@@ -6,9 +6,9 @@
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
-#include <plumbline/renderer/mis/allocation.h>
-#include <plumbline/renderer/render/strategy.h>
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/core/render/strategy.h>
+#include <plumbline/renderer/estimators/allocation.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 
 #include "command.h"
 

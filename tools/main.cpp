@@ -12,8 +12,9 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/nearest_name.h>
-#include <plumbline/renderer/scene/description.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/core/scene/description.h>
+#include <plumbline/renderer/scene_file/nearest_name.h>
 
 #include "command.h"
 #include "output_file.h"

@@ -8,8 +8,9 @@
 #include <fstream>
 #include <system_error>
 
-#include <plumbline/renderer/render/exr.h>
-#include <plumbline/renderer/scene/description.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/core/scene/description.h>
+#include <plumbline/renderer/image_io/exr.h>
 
 namespace plumbline::tools {
 

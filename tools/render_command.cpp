@@ -9,10 +9,11 @@
 #include <thread>
 #include <vector>
 
-#include <plumbline/renderer/nearest_name.h>
-#include <plumbline/renderer/render/exr.h>
-#include <plumbline/renderer/render/render.h>
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/assembly/render.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/image_io/exr.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
+#include <plumbline/renderer/scene_file/nearest_name.h>
 #include <plumbline/reports/render_record.h>
 
 #include "allocation_options.h"
@@ -132,7 +133,7 @@ void print_found(const RenderArguments& arguments, const renderer::SceneDescript
                  const renderer::Scene& scene, const renderer::RenderOptions& options) {
   fmt::print("{}: {}, {}, {}, {}x{} pixels", strategy_label(arguments),
              counted(scene.lights().size(), "light"), counted(scene.shape_count(), "shape"),
-             counted(description.bsdfs.size(), "BSDF"), description.camera.width,
+             counted(description.bsdfs->size(), "BSDF"), description.camera.width,
              description.camera.height);
   if (options.path.max_depth < 0) {
     fmt::print(", depth unlimited");

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include <plumbline/renderer/nearest_name.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/scene_file/nearest_name.h>
 
 namespace plumbline::tools {
 

@@ -6,9 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include <plumbline/renderer/from_name.h>
-#include <plumbline/renderer/render/path.h>
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/core/from_name.h>
+#include <plumbline/renderer/core/render/path.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 
 /// Values of the options of `render`, from the text on the command line.
 namespace plumbline::tools {

@@ -8,8 +8,9 @@
 #include <system_error>
 #include <vector>
 
-#include <plumbline/renderer/render/exr.h>
-#include <plumbline/renderer/scene/description.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/core/scene/description.h>
+#include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/reports/page.h>
 
 namespace plumbline::tools {

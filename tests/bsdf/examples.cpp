@@ -41,7 +41,7 @@ double eta_of(const BsdfSet& set, std::uint32_t index) {
     }
     return 1;
   };
-  return std::visit([&](const auto& bsdf) { return of(of, bsdf); }, set[index]);
+  return std::visit([&](const auto& bsdf) { return of(of, bsdf); }, set.alternative(index));
 }
 
 std::vector<Example> all_examples() {

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include <plumbline/renderer/bsdf/bsdf.h>
+#include <plumbline/renderer/assembly/bsdf.h>
 
 namespace plumbline::tests {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <plumbline/renderer/bsdf/bsdf.h>
+#include <plumbline/renderer/assembly/bsdf.h>
 #include <plumbline/verify/detail/random.h>
 
 /// Inputs at which BSDF code loses its digits: grazing and normal incidence, critical angles, half

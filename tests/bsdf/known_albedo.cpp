@@ -21,7 +21,7 @@ struct KnownAlbedo {
   std::size_t channel;
   const FilmLayer* film = nullptr;
 
-  double of(std::uint32_t index) const { return std::visit(*this, set[index]); }
+  double of(std::uint32_t index) const { return std::visit(*this, set.alternative(index)); }
 
   double operator()(const Lambertian& b) const { return wo.z < 0 ? 0 : channel_of(b.albedo); }
 
@@ -124,7 +124,7 @@ double known_albedo(const Example& example, const Vec3d& wo, std::size_t channel
 
 double albedo_tolerance(const Example& example) {
   for (std::uint32_t i = 0; i < example.set->size(); ++i) {
-    if (std::holds_alternative<ClearCoat>((*example.set)[i])) return 3e-3;
+    if (std::holds_alternative<ClearCoat>(example.set->alternative(i))) return 3e-3;
   }
   return 1e-3;
 }

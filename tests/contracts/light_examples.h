@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include <plumbline/renderer/light/light.h>
+#include <plumbline/renderer/core/light/light.h>
 #include "even_chart.h"
 
 namespace plumbline::tests {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/sampling/pcg32.h>
+#include <plumbline/renderer/core/sampling/pcg32.h>
 #include <plumbline/verify/autodiff.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline/verify/pair.h>

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include <plumbline/renderer/light/light.h>
+#include <plumbline/renderer/core/light/light.h>
 #include "light_examples.h"
 
 namespace plumbline::tests {

@@ -3,7 +3,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
-#include <plumbline/renderer/light/sphere_light.h>
+#include <plumbline/renderer/core/light/sphere_light.h>
 
 namespace plumbline::tests {
 namespace {

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include <plumbline/renderer/sampling/warps.h>
+#include <plumbline/renderer/core/sampling/warps.h>
 #include <plumbline/verify/autodiff.h>
 #include <plumbline/verify/pair.h>
 
@@ -104,7 +104,7 @@ TYPED_TEST(Warps, PdfIsTheInverseJacobian) {
 }
 
 TEST(WarpList, HoldsEveryWarpOfTheRenderer) {
-  std::ifstream file(source_file("renderer/include/plumbline/renderer/sampling/warps.h"));
+  std::ifstream file(source_file("renderer/core/include/plumbline/renderer/core/sampling/warps.h"));
   ASSERT_TRUE(file);
   std::stringstream text;
   text << file.rdbuf();

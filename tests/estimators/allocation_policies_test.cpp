@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
-#include <plumbline/renderer/from_name.h>
-#include <plumbline/renderer/mis/allocation.h>
+#include <plumbline/renderer/core/from_name.h>
+#include <plumbline/renderer/estimators/allocation.h>
 #include <plumbline/verify/detail/random.h>
 
 #include "integral_problem.h"

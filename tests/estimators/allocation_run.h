@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <plumbline/renderer/mis/allocation.h>
+#include <plumbline/renderer/estimators/allocation.h>
 #include <plumbline/verify/detail/random.h>
 #include <plumbline/verify/mean.h>
 

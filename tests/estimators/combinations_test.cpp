@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <plumbline/analytic/estimator_moments.h>
-#include <plumbline/renderer/mis/estimators.h>
+#include <plumbline/renderer/estimators/estimators.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 

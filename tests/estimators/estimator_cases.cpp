@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include <plumbline/renderer/mis/optimal_weights.h>
+#include <plumbline/renderer/estimators/optimal_weights.h>
 #include <plumbline_tests/support.h>
 
 #include "integral_problem.h"

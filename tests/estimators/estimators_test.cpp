@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <plumbline/renderer/mis/optimal_weights.h>
+#include <plumbline/renderer/estimators/optimal_weights.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include <plumbline/renderer/mis/estimators.h>
+#include <plumbline/renderer/estimators/estimators.h>
 #include <plumbline/reports/results.h>
 #include <plumbline/verify/detail/budget.h>
 #include <plumbline_tests/support.h>

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include <plumbline/analytic/integral1d.h>
-#include <plumbline/renderer/mis/estimators.h>
+#include <plumbline/renderer/estimators/estimators.h>
 #include <plumbline/verify/detail/random.h>
 
 namespace plumbline::tests {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <plumbline/renderer/mis/heuristics.h>
+#include <plumbline/renderer/core/mis/heuristics.h>
 
 namespace plumbline::tests {
 namespace {

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
-#include <plumbline/renderer/render/render.h>
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/assembly/render.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 #include "path_samples.h"

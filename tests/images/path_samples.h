@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include <plumbline/renderer/render/path.h>
-#include <plumbline/renderer/scene/scene.h>
+#include <plumbline/renderer/core/render/path.h>
+#include <plumbline/renderer/core/scene/scene.h>
 #include <plumbline/verify/mean.h>
 
 namespace plumbline::tests {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline/verify/ratio.h>
 #include <plumbline_tests/support.h>

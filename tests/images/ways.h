@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/render/path.h>
-#include <plumbline/renderer/scene/description.h>
+#include <plumbline/renderer/core/render/path.h>
+#include <plumbline/renderer/core/scene/description.h>
 
 namespace plumbline::tests {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
-#include <plumbline/renderer/render/render.h>
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/assembly/render.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 #include <plumbline/verify/image.h>
 #include <plumbline_tests/support.h>
 

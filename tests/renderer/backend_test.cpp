@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include <plumbline/renderer/from_name.h>
-#include <plumbline/renderer/render/render.h>
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/assembly/render.h>
+#include <plumbline/renderer/core/from_name.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 #include "scenes.h"
 
 /// Two backends, one image: what the batched one answers is held against the plain loop.
@@ -128,7 +128,7 @@ TEST(Backends, GiveTheSameBitsOnAMeshOfManyTriangles) {
 
 TEST(Backends, GiveTheSameBitsOfASkyAlone) {
   SceneDescription description = tests::empty_scene(20, 15);
-  description.bsdfs.clear();
+  description.bsdfs = make_bsdfs({});
   description.environment = Rgbd{1, 2, 3};
   const Scene scene(description);
   const Pair pair = render_both(scene, options_of(description, Strategy::mis, SamplerType::sobol));

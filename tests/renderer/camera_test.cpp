@@ -1,4 +1,4 @@
-#include <plumbline/renderer/scene/camera.h>
+#include <plumbline/renderer/core/scene/camera.h>
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/renderer/bsdf/lambertian.h>
-#include <plumbline/renderer/light/light.h>
-#include <plumbline/renderer/sampling/warps.h>
+#include <plumbline/renderer/core/bsdf/lambertian.h>
+#include <plumbline/renderer/core/light/light.h>
+#include <plumbline/renderer/core/sampling/warps.h>
 #include <plumbline_tests/support.h>
 
 /// Chi-square of the directions that the renderer samples, in float as rendered, against the

@@ -1,4 +1,4 @@
-#include <plumbline/renderer/render/exr.h>
+#include <plumbline/renderer/image_io/exr.h>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,7 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include <plumbline/renderer/scene/description.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/core/scene/description.h>
 
 namespace plumbline::renderer {
 namespace {

@@ -1,4 +1,4 @@
-#include <plumbline/renderer/render/film.h>
+#include <plumbline/renderer/core/render/film.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <plumbline/renderer/mis/heuristics.h>
+#include <plumbline/renderer/core/mis/heuristics.h>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/assembly/render.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline/verify/ratio.h>
 #include <plumbline_tests/support.h>

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/renderer/render/path.h>
+#include <plumbline/renderer/core/render/path.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
 #include "scenes.h"

@@ -1,4 +1,4 @@
-#include <plumbline/renderer/light/light.h>
+#include <plumbline/renderer/core/light/light.h>
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <plumbline/renderer/sampling/pcg32.h>
-#include <plumbline/renderer/sampling/sobol.h>
+#include <plumbline/renderer/core/sampling/pcg32.h>
+#include <plumbline/renderer/core/sampling/sobol.h>
 
 namespace plumbline::renderer {
 namespace {

@@ -1,4 +1,4 @@
-#include <plumbline/renderer/math.h>
+#include <plumbline/renderer/core/math.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <plumbline/renderer/sampling/pcg32.h>
+#include <plumbline/renderer/core/sampling/pcg32.h>
 
 #include <gtest/gtest.h>
 

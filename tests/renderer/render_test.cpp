@@ -1,4 +1,5 @@
-#include <plumbline/renderer/render/render.h>
+#include <plumbline/renderer/assembly/render.h>
+#include <plumbline/renderer/core/errors.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <plumbline/renderer/sampling/sampler.h>
+#include <plumbline/renderer/core/sampling/sampler.h>
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <plumbline/renderer/scene/description.h>
+#include <plumbline/renderer/assembly/bsdf.h>
+#include <plumbline/renderer/core/scene/description.h>
 
 /// Small scenes made in code, for tests that need no file.
 namespace plumbline::tests {
 
 inline renderer::SceneDescription empty_scene(int width, int height) {
   renderer::SceneDescription scene;
-  scene.bsdfs.emplace_back(renderer::Lambertian{{0.5f, 0.5f, 0.5f}});
+  scene.bsdfs = renderer::make_bsdfs({renderer::Lambertian{{0.5f, 0.5f, 0.5f}}});
   scene.camera = {.origin = {0, 0, 0},
                   .left = {-1, 0, 0},
                   .up = {0, 1, 0},

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include <plumbline/renderer/sampling/pcg32.h>
-#include <plumbline/renderer/scene/scene.h>
+#include <plumbline/renderer/core/sampling/pcg32.h>
+#include <plumbline/renderer/core/scene/scene.h>
 #include "scenes.h"
 
 /// Rays that start on a surface neither hit it again (a black speck) nor start behind it (a leak).

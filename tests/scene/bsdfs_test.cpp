@@ -1,10 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 #include "refusal.h"
 #include "scene_text.h"
 
@@ -19,7 +20,7 @@ template <class B>
 B read(const std::string& type, const std::string& content = {}) {
   const SceneDescription scene = load_body("<shape type=\"sphere\"><bsdf type=\"" + type + "\">" +
                                            content + "</bsdf></shape>");
-  return std::get<B>(scene.bsdfs.at(scene.shapes.at(0).bsdf));
+  return std::get<B>(bsdf_of(scene, scene.shapes.at(0).bsdf));
 }
 
 const std::string kGgx = R"(<string name="distribution" value="ggx"/>)";
@@ -104,13 +105,13 @@ TEST(SceneBsdf, NestedOnesAreIndicesIntoTheSet) {
         <ref id="grey"/>
       </bsdf>
       <shape type="sphere"><ref id="both"/></shape>)");
-  const auto& both = std::get<TwoSided>(scene.bsdfs.at(scene.shapes.at(0).bsdf));
-  const auto& blend = std::get<Mixture>(scene.bsdfs.at(both.front));
+  const auto& both = std::get<TwoSided>(bsdf_of(scene, scene.shapes.at(0).bsdf));
+  const auto& blend = std::get<Mixture>(bsdf_of(scene, both.front));
   EXPECT_EQ(both.back, blend.first);
-  EXPECT_TRUE(std::holds_alternative<Lambertian>(scene.bsdfs.at(blend.first)));
-  EXPECT_TRUE(std::holds_alternative<SmoothConductor>(scene.bsdfs.at(blend.second)));
+  EXPECT_TRUE(std::holds_alternative<Lambertian>(bsdf_of(scene, blend.first)));
+  EXPECT_TRUE(std::holds_alternative<SmoothConductor>(bsdf_of(scene, blend.second)));
   EXPECT_EQ(blend.weight, 0.25f);
-  EXPECT_NO_THROW(BsdfSet(scene.bsdfs));  // children come first
+  EXPECT_LT(std::max(blend.first, blend.second), both.front);  // children come first
 }
 
 TEST(SceneBsdf, OneNestedInATwoSidedIsOnBothSides) {
@@ -131,7 +132,7 @@ std::string chain(int levels) {
 
 TEST(SceneBsdf, ReferencesDoNotBuildTowers) {
   const std::string shape = "\n<shape type=\"sphere\"/>";
-  EXPECT_EQ(load_body(chain(8) + shape).bsdfs.size(), 10u);
+  EXPECT_EQ(load_body(chain(8) + shape).bsdfs->size(), 10u);
   EXPECT_EQ(refusal_of_text(scene_with(chain(9) + shape)),
             "scene.xml:12: BSDFs are nested deeper than 8");
 }

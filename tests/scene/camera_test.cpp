@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include <plumbline/renderer/core/errors.h>
+
 #include "scene_text.h"
 
 namespace plumbline::tests {

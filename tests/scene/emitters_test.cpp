@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/render/exr.h>
-#include <plumbline/renderer/scene/scene.h>
+#include <plumbline/renderer/core/scene/scene.h>
+#include <plumbline/renderer/image_io/exr.h>
 
 #include "scene_text.h"
 

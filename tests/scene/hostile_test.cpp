@@ -49,7 +49,7 @@ TEST(HostileFile, WithAHundredThousandIdsIsReadInTime) {
   for (int i = 0; i < 100000; ++i) {
     body += "<bsdf type=\"diffuse\" id=\"b" + std::to_string(i) + "\"/>\n";
   }
-  EXPECT_EQ(load_body(body + "<shape type=\"sphere\"><ref id=\"b99999\"/></shape>").bsdfs.size(),
+  EXPECT_EQ(load_body(body + "<shape type=\"sphere\"><ref id=\"b99999\"/></shape>").bsdfs->size(),
             100000u);
 }
 

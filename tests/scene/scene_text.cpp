@@ -2,6 +2,8 @@
 
 #include <plumbline_tests/support.h>
 
+#include <plumbline/renderer/core/errors.h>
+
 namespace plumbline::tests {
 
 std::string scene_with(std::string_view body) {

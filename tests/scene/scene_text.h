@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
 
-#include <plumbline/renderer/scene/load_scene.h>
+#include <plumbline/renderer/assembly/bsdf.h>
+#include <plumbline/renderer/scene_file/load_scene.h>
 
 /// Scene files made of text, in a directory of their own.
 namespace plumbline::tests {
@@ -25,6 +27,11 @@ renderer::SceneDescription load_text(const std::string& text,
 inline renderer::SceneDescription load_body(
     std::string_view body, const std::map<std::string, std::string>& overrides = {}) {
   return load_text(scene_with(body), overrides);
+}
+
+/// A BSDF that load_scene has read.
+inline const renderer::Bsdf& bsdf_of(const renderer::SceneDescription& scene, std::uint32_t index) {
+  return dynamic_cast<const renderer::BsdfSet&>(*scene.bsdfs).alternative(index);
 }
 
 /// What load_scene says of a file with that text, the directory left out: "scene.xml:3: why".

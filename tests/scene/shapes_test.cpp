@@ -193,14 +193,14 @@ TEST(Shape, EmitsAndKeepsItsBsdf) {
       <emitter type="area"><rgb name="radiance" value="4 5 6"/></emitter></shape>)");
   ASSERT_TRUE(scene.shapes[0].radiance.has_value());
   EXPECT_EQ(*scene.shapes[0].radiance, (Rgbd{4, 5, 6}));
-  const auto& bsdf = std::get<renderer::Lambertian>(scene.bsdfs.at(scene.shapes[0].bsdf));
+  const auto& bsdf = std::get<renderer::Lambertian>(bsdf_of(scene, scene.shapes[0].bsdf));
   EXPECT_EQ(bsdf.albedo, (renderer::Rgbf{0.1f, 0.2f, 0.3f}));
 }
 
 TEST(Shape, WithoutBsdfIsHalfGrey) {
   const SceneDescription scene = load_body(R"(<shape type="sphere"/><shape type="disk"/>)");
-  EXPECT_EQ(scene.bsdfs.size(), 1u);
-  const auto& bsdf = std::get<renderer::Lambertian>(scene.bsdfs.at(scene.shapes[1].bsdf));
+  EXPECT_EQ(scene.bsdfs->size(), 1u);
+  const auto& bsdf = std::get<renderer::Lambertian>(bsdf_of(scene, scene.shapes[1].bsdf));
   EXPECT_EQ(bsdf.albedo, (renderer::Rgbf{0.5f, 0.5f, 0.5f}));
 }
 
@@ -209,7 +209,7 @@ TEST(Shape, ReferenceMayStandBeforeOrAfterTheBsdf) {
       <bsdf type="diffuse" id="red"><rgb name="reflectance" value="1 0 0"/></bsdf>
       <shape type="disk"><ref id="red"/></shape>)");
   EXPECT_EQ(scene.shapes[0].bsdf, scene.shapes[1].bsdf);
-  const auto& bsdf = std::get<renderer::Lambertian>(scene.bsdfs.at(scene.shapes[0].bsdf));
+  const auto& bsdf = std::get<renderer::Lambertian>(bsdf_of(scene, scene.shapes[0].bsdf));
   EXPECT_EQ(bsdf.albedo, (renderer::Rgbf{1, 0, 0}));
 }
 

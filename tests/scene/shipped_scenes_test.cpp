@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/render/exr.h>
+#include <plumbline/renderer/image_io/exr.h>
 
 #include "scene_text.h"
 

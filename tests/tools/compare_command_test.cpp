@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include <plumbline/renderer/render/exr.h>
+#include <plumbline/renderer/image_io/exr.h>
 
 #include "command_line.h"
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include <plumbline/renderer/render/exr.h>
+#include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/reports/render_record.h>
 
 #include "command_line.h"

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <plumbline/renderer/core/render/render_loop.h>
+#include <plumbline/renderer/estimators/allocation.h>
+
+namespace plumbline::renderer {
+
+/// How paths are traced. Both ask the same functions of BSDFs, lights and heuristics, for the same
+/// random numbers.
+enum class Backend {
+  batched,  ///< many side by side, in packets, where the strategy allows, else as `scalar`
+  scalar    ///< one path after the other: the reference
+};
+
+inline constexpr std::array kBackends{Backend::batched, Backend::scalar};
+
+/// The name on the command line: "batched", "scalar".
+constexpr std::string_view name(Backend backend) {
+  return backend == Backend::batched ? "batched" : "scalar";
+}
+
+/// What of, by which paths, and how they are traced.
+struct RenderOptions : SamplingOptions {
+  PathOptions path;
+  Backend backend = Backend::batched;
+  /// Direct light only, BSDF samples (technique 1) and light samples shared out pixel by pixel,
+  /// balanced: takes the place of strategy and heuristic. Needs a depth of 2, a sample count that
+  /// gives every iteration two, independent samples, and no other limit.
+  std::optional<AllocationOptions> allocation;
+};
+
+struct RenderResult : LoopResult {
+  /// With an allocation: BSDF samples drawn in each iteration, pixel after pixel, the iterations of
+  /// a pixel side by side. Else empty. The film's variances are those of random mixtures then,
+  /// which the counts, being fixed within an iteration, undercut.
+  std::vector<std::uint32_t> bsdf_counts;
+};
+
+/// Share of BSDF samples of each pixel in its last iteration: what the allocation came to.
+///
+/// @param iterations  as rendered with
+std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterations);
+
+/// Renders an image. The same scene, path options, seed and sample count give the same bits,
+/// whatever the number of threads or passes.
+///
+/// @throws InputError for an infinite path depth without Russian roulette, which may never end,
+///         for an error limit on one replicate of Sobol points, whose error is not known, and for
+///         an allocation that the other options do not fit
+RenderResult render(const Scene& scene, const RenderOptions& options);
+
+}  // namespace plumbline::renderer

@@ -1,0 +1,96 @@
+#include "allocated.h"
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+
+#include <chrono>
+#include <cmath>
+
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/core/render/direct.h>
+#include <plumbline/renderer/core/render/tiles.h>
+#include <plumbline/renderer/core/sampling/pcg32.h>
+
+namespace plumbline::renderer {
+namespace {
+
+void check_allocation(const RenderOptions& options) {
+  const AllocationOptions& allocation = *options.allocation;
+  if (options.path.max_depth != 2) {
+    throw InputError("sample allocation works on direct light only: set the maximum depth to 2");
+  }
+  if (options.sampler != SamplerType::independent) {
+    throw InputError("sample allocation works with the independent sampler only");
+  }
+  if (options.seconds > 0 || options.relative_error > 0) {
+    throw InputError("sample allocation needs a sample count, not a limit on time or error");
+  }
+  if (allocation.iterations < 1 || options.samples_per_pixel / 2 < allocation.iterations) {
+    throw InputError("sample allocation needs two samples per pixel in every iteration");
+  }
+  if (!(allocation.limit > 0 && allocation.limit <= 0.5)) {
+    throw InputError("the limit of the sample allocation must lie in (0, 0.5]");
+  }
+  if (!(allocation.cost_ratio > 0 && std::isfinite(allocation.cost_ratio))) {
+    throw InputError("the cost ratio of the sample allocation must be positive");
+  }
+}
+
+void allocate_pixel(const Scene& scene, const RenderOptions& options, int x, int y,
+                    RenderResult& result, PathCounters& counters) {
+  const std::size_t index = result.film.index(x, y);
+  PixelMoments& pixel = result.film.pixels()[index];
+  std::uint32_t* bsdf_counts = &result.bsdf_counts[index * options.allocation->iterations];
+  Pcg32 random(options.seed, index, 0);
+  Rgbf emission;
+  const auto draw = [&](std::size_t technique) {
+    const Vec2f jitter = random.next_2d();
+    const Ray ray = scene.camera().ray(x, y, jitter);
+    const DirectSample sample =
+        sample_direct_light(scene, ray, technique, random.next_2d(), counters);
+    emission = sample.emission;
+    return TechniqueSample<Rgbd>{rgb_cast<double>(sample.value), static_cast<double>(sample.pdf),
+                                 static_cast<double>(sample.other_pdf)};
+  };
+  const auto record = [&](std::uint32_t iteration, std::size_t technique, const Rgbd& reflected) {
+    if (technique == kBsdfTechnique) ++bsdf_counts[iteration];
+    pixel.add(emission + rgb_cast<float>(reflected));
+  };
+  allocate_samples(*options.allocation, options.samples_per_pixel, draw, record);
+}
+
+}  // namespace
+
+std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterations) {
+  const std::uint64_t samples = result.samples_per_pixel;
+  const std::uint64_t before_last = samples * (iterations - 1) / iterations;
+  const auto last = static_cast<float>(samples - before_last);
+  std::vector<float> shares;
+  shares.reserve(result.film.pixels().size());
+  for (std::size_t i = iterations - 1; i < result.bsdf_counts.size(); i += iterations) {
+    shares.push_back(static_cast<float>(result.bsdf_counts[i]) / last);
+  }
+  return shares;
+}
+
+RenderResult render_allocated(const Scene& scene, const RenderOptions& options) {
+  check_allocation(options);
+  const auto start = std::chrono::steady_clock::now();
+  const Camera& camera = scene.camera();
+  RenderResult result{{Film(camera.width(), camera.height()), {}, options.samples_per_pixel, 0},
+                      {}};
+  result.bsdf_counts.resize(result.film.pixels().size() * options.allocation->iterations);
+  oneapi::tbb::enumerable_thread_specific<PathCounters> counters;
+  constexpr std::size_t kTileSide = 8;  // pixels are dear: small tiles end together
+  ProgressReport progress(options.progress, result.film.pixels().size());
+  TileThreads(options.threads)
+      .run(camera.width(), camera.height(), kTileSide, [&](const Tile& tile) {
+        tile.for_each_pixel(
+            [&](int x, int y) { allocate_pixel(scene, options, x, y, result, counters.local()); });
+        progress.advance(tile.pixels());
+      });
+  for (const PathCounters& of_thread : counters) result.counters += of_thread;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace plumbline::renderer

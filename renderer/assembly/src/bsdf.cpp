@@ -1,0 +1,37 @@
+#include <plumbline/renderer/assembly/bsdf.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace plumbline::renderer {
+
+BsdfSet::BsdfSet(std::vector<Bsdf> bsdfs) : bsdfs_(std::move(bsdfs)) {
+  for (std::uint32_t i = 0; i < bsdfs_.size(); ++i) {
+    const auto add_parts = [&]<class B>(const B& bsdf) {
+      if constexpr (NestedBsdf<B>) {
+        for (const std::uint32_t child : bsdf.children()) {
+          if (child >= i) throw std::invalid_argument("a nested BSDF must follow its children");
+        }
+        parts_.push_back(bsdf.parts(*this));
+      } else {
+        parts_.push_back(bsdf.parts());
+      }
+    };
+    std::visit(add_parts, bsdfs_[i]);
+  }
+}
+
+BsdfValue<float> BsdfSet::evaluate(std::uint32_t i, const Vec3f& wo, const Vec3f& wi) const {
+  return (*this)[i].evaluate(wo, wi);
+}
+
+std::optional<BsdfSample<float>> BsdfSet::sample(std::uint32_t i, const Vec3f& wo,
+                                                 const Vec2f& u) const {
+  return (*this)[i].sample(wo, u);
+}
+
+std::shared_ptr<const BsdfSet> make_bsdfs(std::vector<Bsdf> bsdfs) {
+  return std::make_shared<const BsdfSet>(std::move(bsdfs));
+}
+
+}  // namespace plumbline::renderer

@@ -1,0 +1,30 @@
+#include <plumbline/renderer/assembly/render.h>
+
+#include <plumbline/renderer/batched/batch.h>
+#include <plumbline/renderer/core/errors.h>
+
+#include "allocated.h"
+#include "batched_bsdfs.h"
+
+namespace plumbline::renderer {
+
+RenderResult render(const Scene& scene, const RenderOptions& options) {
+  if (options.path.max_depth < 0 && options.path.rr_depth == kNoRoulette) {
+    throw InputError(
+        "paths of unlimited depth without Russian roulette may never end: set a maximum depth or a "
+        "roulette depth");
+  }
+  if (options.allocation) return render_allocated(scene, options);
+  const std::unique_ptr<BsdfKernels> kernels = batched_bsdfs(scene.bsdfs());
+  const auto make_sampler = [&] {
+    std::unique_ptr<PixelSampler> sampler;
+    if (options.backend == Backend::batched && kernels) {
+      sampler = make_batched_sampler(scene, *kernels, options.path, options.sampler, options.seed);
+    }
+    return sampler ? std::move(sampler)
+                   : make_scalar_sampler(scene, options.path, options.sampler, options.seed);
+  };
+  return {run_render_loop(scene.camera(), options, make_sampler), {}};
+}
+
+}  // namespace plumbline::renderer

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <plumbline/renderer/batched/lanes.h>
+
+namespace plumbline::renderer {
+
+/// Vertices side by side, those of one BSDF and one light together.
+struct Shading {
+  std::size_t count = 0;
+  IndexLanes bsdf, light, path;
+  Vec3Lanes position, normal, wo;  // wo is local
+  Lanes<float> offset;
+  RgbLanes throughput;
+  Lanes<float> scale;  // what refractions alone made of the throughput
+  Lanes<float> u, v;   // uniform numbers of the sample that is made next
+  Lanes<float> pmf;    // of the light
+  RayLanes shadow;     // its direction is world, towards the light
+  Lanes<float> distance, cos_light, pdf_light, mass;  // both 0: no light sample
+  RgbLanes radiance, f;
+  Lanes<float> cosine, pdf_bsdf;  // of shadow.direction
+  RgbLanes contribution;
+  Lanes<float> shadow_t_max;
+  IndexLanes shadow_kind;   // octant, or one of the two below
+  Vec3Lanes wi;             // local
+  RgbLanes weight;          // of the BSDF sample; black: none
+  Lanes<float> pdf_w;       // of a density
+  IndexLanes atom;          // 1 where the sample is one, else 0
+  Lanes<float> refraction;  // radiance_scale of the sample
+  RayLanes next;
+  IndexLanes next_kind;  // octant, or kDropped
+};
+
+inline constexpr std::uint32_t kUnblocked = 8, kDropped = 9, kKinds = 10;
+
+/// Each works on the vertices [first, end), which are of one BSDF or of one light.
+struct Run {
+  std::size_t first, end;
+};
+
+}  // namespace plumbline::renderer

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include <plumbline/renderer/core/render/film.h>
+#include <plumbline/renderer/core/render/path.h>
+#include <plumbline/renderer/core/sampling/sampler.h>
+#include <plumbline/renderer/core/scene/scene.h>
+
+namespace plumbline::renderer {
+
+/// How many samples a pixel gets, of which numbers. Sampling ends at whichever limit is reached
+/// first.
+struct SamplingOptions {
+  std::uint32_t samples_per_pixel = 16;  ///< upper limit, ≥ 1
+  double seconds = 0;                    ///< time limit [s]; 0: none
+  double relative_error = 0;             ///< stop at this Film::relative_error(); 0: none
+  std::uint64_t seed = 0;
+  SamplerType sampler = SamplerType::independent;
+  /// Sobol only: independently scrambled parts that the samples of a pixel are dealt out to, ≥ 1.
+  /// The film's variance is that between their means, and `PixelMoments::count` their number, since
+  /// the points of one scramble know nothing of their own error. 1: all points in one net, no
+  /// variance.
+  std::uint32_t replicates = 1;
+  int threads = 0;  ///< 0: all cores. The image does not depend on it.
+  /// Called now and then from one thread with the fraction done, in [0, 1]. May be empty.
+  std::function<void(double)> progress;
+};
+
+/// Draws samples of pixels; each thread has one of its own.
+class PixelSampler {
+ public:
+  virtual ~PixelSampler() = default;
+
+  /// Draws one sample of the pixel (x, y), whose numbers are those of Sampler(…, net, index), and
+  /// adds it to `to`: now or in finish(), but in the order of the calls.
+  virtual void sample(int x, int y, std::uint64_t net, std::uint64_t index, PixelMoments& to) = 0;
+
+  /// Ends what is under way.
+  virtual void finish() {}
+
+  PathCounters counters;
+};
+
+/// One path after the other: the reference that other samplers are held against.
+/// @param scene, path  kept, not copied
+std::unique_ptr<PixelSampler> make_scalar_sampler(const Scene& scene, const PathOptions& path,
+                                                  SamplerType sampler, std::uint64_t seed);
+
+struct LoopResult {
+  Film film;
+  PathCounters counters;
+  std::uint32_t samples_per_pixel = 0;  ///< drawn
+  double seconds = 0;
+};
+
+/// A tile holds at least so many samples, for samplers that work on many at once.
+inline constexpr std::size_t kSamplesPerTile = 2048;
+
+/// Renders an image. The same samples give the same bits, whatever the number of threads or passes.
+///
+/// @param make_sampler  called once per thread
+/// @throws InputError   for an error limit on one replicate of Sobol points, whose error is not
+///                      known
+LoopResult run_render_loop(const Camera& camera, const SamplingOptions& options,
+                           const std::function<std::unique_ptr<PixelSampler>()>& make_sampler);
+
+}  // namespace plumbline::renderer

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/core/math.h>
+#include <plumbline/renderer/core/render/film.h>
+
+namespace plumbline::renderer {
+
+/// An image as it is stored: row by row from the top, 32-bit floats.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<Rgbf> pixels;
+  std::vector<Rgbf> variance;  ///< of one sample; empty where the file has none
+  std::vector<float> count;    ///< samples per pixel; empty where the file has none
+  std::map<std::string, std::string> metadata;  ///< string attributes of the header
+};
+
+Image to_image(const Film& film);
+
+/// Writes a multi-layer OpenEXR file: R, G, B, `variance.R`, `variance.G`, `variance.B`, `count`,
+/// and the metadata as string attributes. The file appears complete or not at all (written beside
+/// its final place, then renamed).
+///
+/// @throws InputError where the path cannot be written to, MachineError where the disk is full
+void write_exr(const std::filesystem::path& path, const Image& image);
+
+/// Reads R, G, B (or Y alone) and, where present, the layers that write_exr makes.
+///
+/// @throws InputError "file: what" for anything that is not such an image
+Image read_exr(const std::filesystem::path& path);
+
+}  // namespace plumbline::renderer

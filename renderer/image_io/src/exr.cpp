@@ -1,0 +1,214 @@
+#include <plumbline/renderer/image_io/exr.h>
+
+#include <ImfArray.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+#include <ImfThreading.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include <plumbline/renderer/core/scene/description.h>
+
+namespace plumbline::renderer {
+namespace {
+
+constexpr int kMaxSide = 1 << 16;  // a header may claim anything; memory is only taken below this
+
+/// OpenEXR swallows write errors in its destructor, where the line table is written. This stream
+/// remembers them.
+class CheckedStream : public Imf::OStream {
+ public:
+  explicit CheckedStream(const std::filesystem::path& path)
+      : Imf::OStream(path.c_str()), out_(path, std::ios::binary | std::ios::trunc) {}
+
+  bool opened() const { return out_.is_open(); }
+  void write(const char c[], int n) override { out_.write(c, n); }
+  std::uint64_t tellp() override { return static_cast<std::uint64_t>(out_.tellp()); }
+  void seekp(std::uint64_t position) override {
+    out_.seekp(static_cast<std::ofstream::off_type>(position));
+  }
+  bool close() {
+    out_.close();
+    return !out_.fail();
+  }
+
+ private:
+  std::ofstream out_;
+};
+
+constexpr const char* kColor[] = {"R", "G", "B"};
+constexpr const char* kVariance[] = {"variance.R", "variance.G", "variance.B"};
+constexpr const char* kCount = "count";
+
+/// Describes one channel of a full-width buffer to OpenEXR, which wants the address of pixel (0, 0)
+/// and mutable bytes even for output.
+Imf::Slice slice(const float* first, std::size_t stride, int width) {
+  char* base = const_cast<char*>(reinterpret_cast<const char*>(first));
+  return Imf::Slice(Imf::FLOAT, base, stride, stride * static_cast<std::size_t>(width));
+}
+
+void insert_rgb(Imf::FrameBuffer& buffer, const char* const (&names)[3],
+                const std::vector<Rgbf>& pixels, int width) {
+  const Rgbf& first = pixels.front();
+  const float* channels[] = {&first.r, &first.g, &first.b};
+  for (int i = 0; i < 3; ++i) buffer.insert(names[i], slice(channels[i], sizeof(Rgbf), width));
+}
+
+Imf::Header header_of(const Image& image) {
+  Imf::Header header(image.width, image.height);
+  header.compression() = Imf::ZIPS_COMPRESSION;
+  for (const char* name : kColor) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  if (!image.variance.empty()) {
+    for (const char* name : kVariance) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  }
+  if (!image.count.empty()) header.channels().insert(kCount, Imf::Channel(Imf::FLOAT));
+  for (const auto& [key, value] : image.metadata) {
+    header.insert(key.c_str(), Imf::StringAttribute(value));
+  }
+  return header;
+}
+
+void write_pixels(Imf::OStream& stream, const Image& image) {
+  Imf::FrameBuffer buffer;
+  insert_rgb(buffer, kColor, image.pixels, image.width);
+  if (!image.variance.empty()) insert_rgb(buffer, kVariance, image.variance, image.width);
+  if (!image.count.empty()) {
+    buffer.insert(kCount, slice(image.count.data(), sizeof(float), image.width));
+  }
+  Imf::OutputFile file(stream, header_of(image));
+  file.setFrameBuffer(buffer);
+  file.writePixels(image.height);
+}
+
+void check_target(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw InputError(path.string() + ": not a regular file, refusing to replace it");
+  }
+}
+
+/// Removes the unfinished file unless the write came to its end.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(std::filesystem::path path) : path_(std::move(path)) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+void read_channels(Imf::InputFile& file, Image& image) {
+  const Imf::ChannelList& channels = file.header().channels();
+  const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
+  const bool is_rgb = has("R") && has("G") && has("B");
+  if (!is_rgb && !has("Y")) throw InputError("has neither the channels R, G, B nor Y");
+
+  const auto size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  image.pixels.resize(size);
+  Imf::FrameBuffer buffer;
+  const Imath::Box2i window = file.header().dataWindow();
+  // OpenEXR addresses pixels by their window coordinates: shift the base so that the window's
+  // corner is the first element.
+  const auto corner = static_cast<std::ptrdiff_t>(window.min.y) * image.width + window.min.x;
+  const auto insert = [&](const char* name, float* first, std::size_t stride) {
+    buffer.insert(name, slice(first - corner * static_cast<std::ptrdiff_t>(stride / sizeof(float)),
+                              stride, image.width));
+  };
+  const auto insert_color = [&](const char* const(&names)[3], std::vector<Rgbf>& pixels) {
+    insert(names[0], &pixels.front().r, sizeof(Rgbf));
+    insert(names[1], &pixels.front().g, sizeof(Rgbf));
+    insert(names[2], &pixels.front().b, sizeof(Rgbf));
+  };
+  if (is_rgb) {
+    insert_color(kColor, image.pixels);
+  } else {
+    insert("Y", &image.pixels.front().r, sizeof(Rgbf));
+  }
+  if (has(kVariance[0]) && has(kVariance[1]) && has(kVariance[2])) {
+    image.variance.resize(size);
+    insert_color(kVariance, image.variance);
+  }
+  if (has(kCount)) {
+    image.count.resize(size);
+    insert(kCount, image.count.data(), sizeof(float));
+  }
+  file.setFrameBuffer(buffer);
+  file.readPixels(window.min.y, window.max.y);
+  if (!is_rgb) {
+    for (Rgbf& pixel : image.pixels) pixel = {pixel.r, pixel.r, pixel.r};
+  }
+}
+
+}  // namespace
+
+Image to_image(const Film& film) {
+  Image image{film.width(), film.height(), {}, {}, {}, {}};
+  image.pixels.reserve(film.pixels().size());
+  image.variance.reserve(film.pixels().size());
+  image.count.reserve(film.pixels().size());
+  for (const PixelMoments& pixel : film.pixels()) {
+    image.pixels.push_back(rgb_cast<float>(pixel.mean));
+    image.variance.push_back(rgb_cast<float>(pixel.variance()));
+    image.count.push_back(static_cast<float>(pixel.count));
+  }
+  return image;
+}
+
+void write_exr(const std::filesystem::path& path, const Image& image) {
+  check_target(path);
+  const TemporaryFile temporary(path.string() + ".part-" + std::to_string(getpid()));
+  CheckedStream stream(temporary.path());
+  if (!stream.opened()) throw InputError(path.string() + ": cannot be written to");
+  try {
+    write_pixels(stream, image);
+  } catch (const std::exception& error) {
+    throw MachineError(path.string() + ": " + error.what());
+  }
+  if (!stream.close()) throw MachineError(path.string() + ": writing failed; is the disk full?");
+  std::error_code error;
+  std::filesystem::rename(temporary.path(), path, error);
+  if (error) throw InputError(path.string() + ": " + error.message());
+}
+
+Image read_exr(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) {
+    throw InputError(path.string() + ": no such image");
+  }
+  try {
+    Imf::InputFile file(path.c_str());
+    const Imath::Box2i window = file.header().dataWindow();
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+    if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
+      throw InputError("has an unreasonable size");
+    }
+    Image image{static_cast<int>(width), static_cast<int>(height), {}, {}, {}, {}};
+    read_channels(file, image);
+    for (auto it = file.header().begin(); it != file.header().end(); ++it) {
+      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute())) {
+        image.metadata[it.name()] = text->value();
+      }
+    }
+    return image;
+  } catch (const std::exception& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace plumbline::renderer

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <plumbline/renderer/core/scene/description.h>
+
+namespace plumbline::renderer {
+
+/// Reads a scene file in the subset of Mitsuba 3's XML that docs/scene_format.md lists.
+///
+/// @param overrides  values for the file's <default> parameters, by name (the command's -D)
+/// @param size       film size in place of the file's; the field of view stays along its axis
+/// @throws InputError "file:line: what and why" for anything outside the subset, naming the element
+///         or attribute and the nearest supported name; never crashes or hangs on hostile input
+SceneDescription load_scene(const std::filesystem::path& file,
+                            const std::map<std::string, std::string>& overrides = {},
+                            std::optional<FilmSize> size = std::nullopt);
+
+/// The types that a scene file may name for an element: "sphere", "rectangle", … for "shape".
+/// Empty for an element that has no type.
+std::vector<std::string> supported_types(std::string_view tag);
+
+}  // namespace plumbline::renderer
