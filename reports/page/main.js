@@ -80,6 +80,7 @@ addImages();
 addVarianceRatios();
 addCalibration();
 addStability();
+addCauses();
 addSpeed();
 addRayCosts();
 addVerdictCost();

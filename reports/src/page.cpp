@@ -17,9 +17,9 @@ std::string part(std::string_view name, const PageInput& input) {
   if (name == "script") {
     std::string script;
     for (const std::string_view file :
-         {detail::page_base_js, detail::page_bench_js, detail::page_checks_js,
-          detail::page_images_js, detail::page_plots_js, detail::page_stability_js,
-          detail::page_main_js}) {
+         {detail::page_base_js, detail::page_bench_js, detail::page_causes_js,
+          detail::page_checks_js, detail::page_images_js, detail::page_plots_js,
+          detail::page_stability_js, detail::page_main_js}) {
       script += file;
     }
     return script;

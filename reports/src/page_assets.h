@@ -9,6 +9,7 @@ extern const std::string_view page_html;
 extern const std::string_view page_css;
 extern const std::string_view page_base_js;
 extern const std::string_view page_bench_js;
+extern const std::string_view page_causes_js;
 extern const std::string_view page_checks_js;
 extern const std::string_view page_images_js;
 extern const std::string_view page_plots_js;

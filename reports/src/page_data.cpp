@@ -153,6 +153,12 @@ Json bars_to_json(const std::vector<Bar>& bars) {
   return list;
 }
 
+Json causes_to_json(const std::vector<CausesRecord>& causes) {
+  Json list = Json::array();
+  for (const CausesRecord& record : causes) list.push_back(with_exact_seed(record));
+  return list;
+}
+
 Json renders_to_json(const std::vector<RenderRecord>& renders) {
   Json list = Json::array();
   for (const RenderRecord& render : renders) list.push_back(with_exact_seed(render));
@@ -187,6 +193,7 @@ std::string page_data(const PageInput& input) {
                      {"speed", speed_to_json(results.speed)},
                      {"ray_costs", list_to_json(results.ray_costs)},
                      {"bars", bars_to_json(results.bars)},
+                     {"causes", causes_to_json(results.causes)},
                      {"stability", list_to_json(results.stability)},
                      {"figures", list_to_json(results.figures)},
                      {"tables", list_to_json(results.tables)}};

@@ -52,6 +52,8 @@ void add_document(Results& results, const std::string& text, const fs::path& dir
     results.bars.push_back(parse_bar(text));
   } else if (format == detail::kStabilityFormat) {
     results.stability.push_back(parse_stability_record(text));
+  } else if (format == detail::kCausesFormat) {
+    results.causes.push_back(parse_causes_record(text));
   } else if (format == detail::kFigureFormat) {
     results.figures.push_back(parse_figure(text));
   } else if (format == detail::kTableFormat) {
@@ -94,7 +96,8 @@ void read_single(Results& results, const fs::path& file, const std::string& text
 bool holds_nothing(const Results& results) {
   return results.checks.empty() && results.renders.empty() && results.speed.empty() &&
          results.ray_costs.empty() && results.bars.empty() && results.stability.empty() &&
-         results.figures.empty() && results.tables.empty() && results.warnings.empty();
+         results.causes.empty() && results.figures.empty() && results.tables.empty() &&
+         results.warnings.empty();
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ inline constexpr const char* kSpeedFormat = "plumbline.speed/1";
 inline constexpr const char* kRayCostFormat = "plumbline.ray_cost/1";
 inline constexpr const char* kBarFormat = "plumbline.bar/1";
 inline constexpr const char* kStabilityFormat = "plumbline.stability/1";
+inline constexpr const char* kCausesFormat = "plumbline.causes/1";
 inline constexpr const char* kFigureFormat = "plumbline.figure/1";
 inline constexpr const char* kTableFormat = "plumbline.table/1";
 
@@ -93,6 +94,22 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("ill_conditioned_error", r.ill_conditioned_error);
   visit("condition", r.condition);
   visit("ill_conditioned_place", r.ill_conditioned_place);
+}
+
+template <class Visitor, Is<JudgedTwin> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("name", r.name);
+  visit("fault", r.fault);
+  visit("expected", r.expected);
+  visit("named", r.named);
+  visit("found", r.found);
+}
+
+template <class Visitor, Is<CausesRecord> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("set", r.set);
+  visit("seed", r.seed);
+  visit("twins", r.twins);
 }
 
 template <>

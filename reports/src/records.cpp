@@ -22,6 +22,15 @@ void require_full_rows(const Table& table) {
   }
 }
 
+void require_expected_causes(const CausesRecord& record) {
+  for (const JudgedTwin& twin : record.twins) {
+    if (twin.name.empty()) {
+      throw FormatError("causes of the set \"" + record.set + "\": a twin has no name");
+    }
+    if (twin.expected.empty()) throw FormatError("twin \"" + twin.name + "\" expects no cause");
+  }
+}
+
 }  // namespace
 
 std::string to_json(const verify::CheckResult& result) {
@@ -82,6 +91,17 @@ std::string to_json(const StabilityRecord& record) {
 
 StabilityRecord parse_stability_record(std::string_view json) {
   return detail::parse_document<StabilityRecord>(detail::kStabilityFormat, json);
+}
+
+std::string to_json(const CausesRecord& record) {
+  require_expected_causes(record);
+  return detail::document(detail::kCausesFormat, record);
+}
+
+CausesRecord parse_causes_record(std::string_view json) {
+  CausesRecord record = detail::parse_document<CausesRecord>(detail::kCausesFormat, json);
+  require_expected_causes(record);
+  return record;
 }
 
 std::string to_json(const Figure& figure) {

@@ -40,6 +40,7 @@ TEST(Formats, EveryRecordSurvivesTheRoundTrip) {
   EXPECT_EQ(parse_ray_cost(to_json(sample_ray_cost())), sample_ray_cost());
   EXPECT_EQ(parse_bar(to_json(sample_bar())), sample_bar());
   EXPECT_EQ(parse_stability_record(to_json(sample_stability_record())), sample_stability_record());
+  EXPECT_EQ(parse_causes_record(to_json(sample_causes_record())), sample_causes_record());
   EXPECT_EQ(parse_figure(to_json(sample_figure())), sample_figure());
   EXPECT_EQ(reports::parse_table(to_json(sample_table())), sample_table());
 }
@@ -88,6 +89,7 @@ TEST(Formats, EachStatesItsFormatFirstOnOneLine) {
       {to_json(sample_ray_cost()), "plumbline.ray_cost/1"},
       {to_json(sample_bar()), "plumbline.bar/1"},
       {to_json(sample_stability_record()), "plumbline.stability/1"},
+      {to_json(sample_causes_record()), "plumbline.causes/1"},
       {to_json(sample_figure()), "plumbline.figure/1"},
       {to_json(sample_table()), "plumbline.table/1"},
   };
@@ -230,6 +232,27 @@ TEST(Formats, FigureWhoseSeriesDisagreeInLengthIsRefused) {
     if (damage == 2) figure.series[1].low = {1};
     EXPECT_THROW(reports::to_json(figure), FormatError) << damage;
   }
+}
+
+TEST(Formats, CausesOfWhichATwinLacksSomethingAreRefused) {
+  const auto refusal = [](const char* field, const Json& value) -> std::string {
+    Json json = Json::parse(reports::to_json(sample_causes_record()));
+    json["twins"][1][field] = value;
+    try {
+      reports::parse_causes_record(json.dump());
+    } catch (const FormatError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refusal("expected", ""), "twin \"ggx/frame\" expects no cause");
+  EXPECT_EQ(refusal("name", ""), "causes of the set \"third\": a twin has no name");
+  EXPECT_EQ(refusal("named", nullptr), "field \"twins\": field \"named\": not a text");
+  EXPECT_EQ(refusal("found", "yes"), "field \"twins\": field \"found\": not true or false");
+  EXPECT_EQ(refusal("named", ""), "") << "silence is an outcome";
+  reports::CausesRecord record = sample_causes_record();
+  record.twins[0].expected.clear();
+  EXPECT_THROW(reports::to_json(record), FormatError);
 }
 
 TEST(Formats, EnvironmentOfThisBuildIsFilledIn) {

@@ -36,6 +36,7 @@ PageInput sample_input() {
   input.results.ray_costs = {sample_ray_cost()};
   input.results.bars = {sample_bar()};
   input.results.stability = {sample_stability_record()};
+  input.results.causes = {sample_causes_record()};
   input.results.figures = {sample_figure()};
   input.results.tables = {sample_table()};
   input.images = {{"furnace_sphere", "mis, power", 1, 1, {0.5f, 0.25f, 0.125f}}};
@@ -97,6 +98,7 @@ TEST(Page, HoldsEveryRecordOfTheResults) {
   EXPECT_EQ(data["ray_costs"][0]["ratio"], 0.75);
   EXPECT_EQ(data["bars"][0]["verdict"], "indicative");
   EXPECT_EQ(data["stability"][0]["condition"], 3e5);
+  EXPECT_EQ(data["causes"][0]["twins"][1]["named"], "shifted");
   EXPECT_EQ(data["figures"][0]["title"], "Error against samples");
   EXPECT_EQ(data["tables"][0]["rows"][1][1], "1.25");
   EXPECT_EQ(data["images"][0]["group"], "furnace_sphere");
@@ -106,6 +108,7 @@ TEST(Page, SeedsAreTextBecauseTheBrowserWouldRoundThem) {
   const Json data = data_of(make_page(sample_input()));
   EXPECT_EQ(data["checks"][0]["seed"], "18446744073709551615");
   EXPECT_EQ(data["renders"][0]["seed"], "18446744073709551614");
+  EXPECT_EQ(data["causes"][0]["seed"], "18446744073709551613");
 }
 
 TEST(Page, IsSelfContained) {
@@ -129,6 +132,7 @@ TEST(Page, NoTextCanEndTheScriptThatHoldsIt) {
   const std::string hostile = "</script><script>alert(1)</script><!--<script>{{css}}\u2028";
   input.results.checks[0].reason = hostile;
   input.results.stability[0].place = hostile;
+  input.results.causes[0].twins[0].fault = hostile;
   input.results.figures[0].title = hostile;
   input.results.renders[0].parameters = {{hostile, hostile}};
   input.results.warnings = {{"a.jsonl", 1, hostile}};

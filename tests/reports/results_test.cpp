@@ -46,6 +46,7 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
     bench.append(sample_ray_cost());
     bench.append(sample_bar());
     bench.append(sample_stability_record());
+    bench.append(sample_causes_record());
     bench.append(sample_figure());
     bench.append(sample_table());
   }
@@ -60,6 +61,7 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
   EXPECT_EQ(results.ray_costs.size(), 1u);
   EXPECT_EQ(results.bars.size(), 1u);
   EXPECT_EQ(results.stability.size(), 1u);
+  EXPECT_EQ(results.causes.size(), 1u);
   EXPECT_EQ(results.figures.size(), 1u);
   EXPECT_EQ(results.tables.size(), 1u);
   ASSERT_EQ(results.renders.size(), 1u);

@@ -130,6 +130,16 @@ reports::StabilityRecord sample_stability_record() {
   return record;
 }
 
+reports::CausesRecord sample_causes_record() {
+  reports::CausesRecord record;
+  record.set = "third";
+  record.seed = 18'446'744'073'709'551'613u;
+  record.twins = {{"ggx/pdf half", "pdf has a factor of 1/2", "constant", "constant", true},
+                  {"ggx/frame", "any tangent", "tangent frame", "shifted", true},
+                  {"coat/weight", "a wrong power of the index", "Fresnel", "", false}};
+  return record;
+}
+
 reports::Figure sample_figure() {
   reports::Figure figure;
   figure.group = "Integrals with known answers";

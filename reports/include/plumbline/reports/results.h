@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <plumbline/reports/bench_record.h>
+#include <plumbline/reports/causes_record.h>
 #include <plumbline/reports/environment.h>
 #include <plumbline/reports/errors.h>
 #include <plumbline/reports/figure.h>
@@ -42,6 +43,7 @@ class ResultLog {
   void append(const RayCost& cost) { append_line(to_json(cost)); }
   void append(const Bar& bar) { append_line(to_json(bar)); }
   void append(const StabilityRecord& record) { append_line(to_json(record)); }
+  void append(const CausesRecord& record) { append_line(to_json(record)); }
   void append(const Figure& figure) { append_line(to_json(figure)); }
   void append(const Table& table) { append_line(to_json(table)); }
   void append(const RunEnvironment& environment) { append_line(to_json(environment)); }
@@ -68,6 +70,7 @@ struct Results {
   std::vector<RayCost> ray_costs;
   std::vector<Bar> bars;
   std::vector<StabilityRecord> stability;
+  std::vector<CausesRecord> causes;
   std::vector<Figure> figures;
   std::vector<Table> tables;
   std::vector<RunEnvironment> environments;  ///< one per build and machine, the latest of each
