@@ -107,7 +107,18 @@ TEST(Parts, AreFoundWhereOneNumberJumps) {
 
 TEST(Parts, AreNoneOfASmoothMap) {
   const auto smooth = [](double u, double v) { return lobe(3, true, u, v); };
-  EXPECT_EQ(parts_of(directions(smooth, [](const Vec3&) { return 1.0; })).count(), 1u);
+  const SamplingPair pair = directions(smooth, [](const Vec3&) { return 1.0; });
+  const Parts parts = parts_of(pair);
+  EXPECT_EQ(parts.count(), 1u);
+  EXPECT_FALSE(choice_is_used_again(pair, parts)) << "nothing is chosen";
+}
+
+TEST(Parts, FarTooManyAreAChoiceUsedAgain) {
+  const auto in_cells = [](double u, double v) {
+    return lobe(3, true, std::fmod(64 * u, 1), (std::floor(64 * u) + v) / 64);
+  };
+  const SamplingPair pair = directions(in_cells, [](const Vec3&) { return 1.0; });
+  EXPECT_TRUE(choice_is_used_again(pair, parts_of(pair)));
 }
 
 TEST(Diagnosis, TakesSamplersApart) { expect_named(samplers()); }

@@ -92,7 +92,8 @@ Parts parts_of(const SamplingPair& pair) {
   if (!can_be_taken_apart(pair)) return {};
   constexpr std::size_t kLines = 7, kAgree = 4;
   constexpr double kSame = 4e-6;
-  Parts best;
+  Parts best{0, {0, 1}};
+  bool far_too_many = false;
   for (std::size_t n = 0; n < static_cast<std::size_t>(pair.numbers); ++n) {
     Random random = random_for(Stream::part_lines);
     std::vector<double> all;
@@ -111,9 +112,10 @@ Parts parts_of(const SamplingPair& pair) {
       i = j;
     }
     parts.borders.push_back(1);
+    far_too_many = far_too_many || parts.count() > kMostParts;
     if (parts.count() > best.count() && parts.count() <= kMostParts) best = std::move(parts);
   }
-  return best;
+  return best.count() < 2 && far_too_many ? Parts{} : best;
 }
 
 bool choice_is_used_again(const SamplingPair& pair, const Parts& parts) {

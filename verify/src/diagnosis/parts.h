@@ -11,8 +11,8 @@
 /// adds to the density is found by itself, without a word from the code about it.
 namespace plumbline::verify {
 
-/// Which number chooses, and where it goes from one part to the next: 0, …, 1. Less than three
-/// borders: there is one part only, or far too many.
+/// Which number chooses, and where it goes from one part to the next: 0, …, 1. No borders: there
+/// are far too many parts, or the sampler cannot be taken apart.
 struct Parts {
   std::size_t chooser = 0;
   std::vector<double> borders;
