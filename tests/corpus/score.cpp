@@ -1,7 +1,9 @@
 // corpus_score [--correct | --open | --sealed] [--gate] [--seed N] [--filter TEXT]
+//              [--set NAME --results DIRECTORY]
 //
 // Runs the corpus and says how the library did: false alarms on correct code, faults found, causes
-// right and wrong.
+// right and wrong. With a directory the causes named are appended to its causes.jsonl, under the
+// name of the set, for the page.
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/reports/results.h>
+
 #include "all_cases.h"
 
 namespace plumbline::tests::corpus {
@@ -23,46 +27,6 @@ namespace {
 using verify::CauseKind;
 using verify::CheckResult;
 using verify::Verdict;
-
-/// As the enumeration spells it: what cases are written with.
-std::string kind_name(CauseKind kind) {
-  static const std::map<CauseKind, const char*> kNames{
-      {CauseKind::none, "none"},
-      {CauseKind::constant, "constant"},
-      {CauseKind::constant_per_hemisphere, "constant_per_hemisphere"},
-      {CauseKind::lobe_probability, "lobe_probability"},
-      {CauseKind::choice_probability, "choice_probability"},
-      {CauseKind::cosine, "cosine"},
-      {CauseKind::sine, "sine"},
-      {CauseKind::radius, "radius"},
-      {CauseKind::half_vector_jacobian, "half_vector_jacobian"},
-      {CauseKind::refraction_jacobian, "refraction_jacobian"},
-      {CauseKind::masking, "masking"},
-      {CauseKind::roughness, "roughness"},
-      {CauseKind::fresnel, "fresnel"},
-      {CauseKind::eta_squared, "eta_squared"},
-      {CauseKind::distance_or_area, "distance_or_area"},
-      {CauseKind::directions_swapped, "directions_swapped"},
-      {CauseKind::mirrored, "mirrored"},
-      {CauseKind::chosen_lobe_only, "chosen_lobe_only"},
-      {CauseKind::shifted, "shifted"},
-      {CauseKind::tangent_frame, "tangent_frame"},
-      {CauseKind::not_rejected, "not_rejected"},
-      {CauseKind::numbers_reused, "numbers_reused"},
-      {CauseKind::support, "support"},
-      {CauseKind::on_a_line, "on_a_line"},
-      {CauseKind::atom_as_density, "atom_as_density"},
-      {CauseKind::record_pdf, "record_pdf"},
-      {CauseKind::value_cosine, "value_cosine"},
-      {CauseKind::value_constant, "value_constant"},
-      {CauseKind::weight, "weight"},
-      {CauseKind::asymmetric, "asymmetric"},
-      {CauseKind::energy, "energy"},
-      {CauseKind::not_finite, "not_finite"},
-      {CauseKind::precision, "precision"},
-      {CauseKind::stale_state, "stale_state"}};
-  return kNames.at(kind);
-}
 
 struct NamedCause {
   CauseKind kind = CauseKind::none;
@@ -130,8 +94,8 @@ struct Totals {
   int correct = 0, alarms = 0, undecided = 0;
   int faults = 0, found = 0, right = 0, wrong = 0, silent = 0;
   double seconds = 0;
-  std::map<std::string_view, double> seconds_of;                 ///< kinds of checks
-  std::map<std::pair<std::string, std::string>, int> confusion;  ///< expected, named
+  std::map<std::string_view, double> seconds_of;  ///< kinds of checks
+  std::vector<reports::JudgedTwin> twins;
 };
 
 /// First two lines of the first result that is not as expected, for whoever looks into it.
@@ -172,23 +136,28 @@ void run_twin(const Case& c, const Results& results, double seconds, Totals& tot
   } else {
     ++(right ? totals.right : totals.wrong);
   }
-  const std::string shown = named.text.empty()              ? "nothing"
+  const std::string due(to_string(expected));
+  const std::string shown = named.text.empty()              ? ""
                             : named.kind == CauseKind::none ? "something else"
-                                                            : kind_name(named.kind);
+                                                            : std::string(to_string(named.kind));
   // One of several names for the same counts as the first of them.
-  ++totals.confusion[{kind_name(expected), right ? kind_name(expected) : shown}];
+  totals.twins.push_back({c.name, c.fault, due, right ? due : shown, found});
   std::printf("%-7s %-6s %6.2f s  %s\n", found ? "found" : "MISSED", judged, seconds,
               c.name.c_str());
-  std::printf("    fault: %s\n    expected: %s, named: %s%s%s\n", c.fault.c_str(),
-              kind_name(expected).c_str(), shown.c_str(), named.text.empty() ? "" : ": ",
+  std::printf("    fault: %s\n    expected: %s, named: %s%s%s\n", c.fault.c_str(), due.c_str(),
+              shown.empty() ? "nothing" : shown.c_str(), shown.empty() ? "" : ": ",
               named.text.c_str());
   std::printf("    %s\n", summary_of(results).c_str());
 }
 
 void print_confusion(const Totals& totals) {
+  std::map<std::pair<std::string, std::string>, int> confusion;  // expected, named
   std::set<std::string> columns, rows;
-  for (const auto& [key, count] : totals.confusion)
-    rows.insert(key.first), columns.insert(key.second);
+  for (const reports::JudgedTwin& twin : totals.twins) {
+    const std::string named = twin.named.empty() ? "nothing" : twin.named;
+    ++confusion[{twin.expected, named}];
+    rows.insert(twin.expected), columns.insert(named);
+  }
   std::printf("\n| fault \\ named |");
   for (const auto& column : columns) std::printf(" %s |", column.c_str());
   std::printf("\n|---|");
@@ -197,21 +166,27 @@ void print_confusion(const Totals& totals) {
   for (const auto& row : rows) {
     std::printf("| %s |", row.c_str());
     for (const auto& column : columns) {
-      const auto cell = totals.confusion.find({row, column});
-      std::printf(cell == totals.confusion.end() ? " |" : " %d |",
-                  cell == totals.confusion.end() ? 0 : cell->second);
+      const auto cell = confusion.find({row, column});
+      std::printf(cell == confusion.end() ? " |" : " %d |",
+                  cell == confusion.end() ? 0 : cell->second);
     }
     std::printf("\n");
   }
 }
 
-int score(const std::vector<Case>& cases, std::uint64_t seed, Effort effort,
-          std::string_view filter) {
+struct Options {
+  std::uint64_t seed = 1;
+  Effort effort = Effort::user;
+  std::string_view filter;
+  std::string set = "first", results;
+};
+
+int score(const std::vector<Case>& cases, const Options& options) {
   Totals totals;
   for (const Case& c : cases) {
-    if (c.name.find(filter) == std::string::npos) continue;
+    if (c.name.find(options.filter) == std::string::npos) continue;
     const auto start = std::chrono::steady_clock::now();
-    const Results results = c.run(seed, effort);
+    const Results results = c.run(options.seed, options.effort);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     totals.seconds += seconds;
@@ -231,7 +206,11 @@ int score(const std::vector<Case>& cases, std::uint64_t seed, Effort effort,
   for (const auto& [kind, seconds] : totals.seconds_of) {
     std::printf("%8.1f s  %.*s\n", seconds, static_cast<int>(kind.size()), kind.data());
   }
-  std::printf("%.1f s, seed %llu\n", totals.seconds, static_cast<unsigned long long>(seed));
+  std::printf("%.1f s, seed %llu\n", totals.seconds, static_cast<unsigned long long>(options.seed));
+  if (!options.results.empty() && totals.faults > 0) {
+    reports::ResultLog(options.results, "causes")
+        .append(reports::CausesRecord{options.set, options.seed, totals.twins});
+  }
   return totals.alarms + totals.undecided + totals.faults - totals.found == 0 ? 0 : 1;
 }
 
@@ -241,9 +220,7 @@ int score(const std::vector<Case>& cases, std::uint64_t seed, Effort effort,
 int main(int argc, char** argv) {
   using namespace plumbline::tests::corpus;
   std::vector<Half> halves;
-  std::uint64_t seed = 1;
-  Effort effort = Effort::user;
-  std::string_view filter;
+  Options options;
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
     if (argument == "--correct") {
@@ -253,15 +230,19 @@ int main(int argc, char** argv) {
     } else if (argument == "--sealed") {
       halves.push_back(Half::sealed);
     } else if (argument == "--gate") {
-      effort = Effort::gate;
+      options.effort = Effort::gate;
     } else if (argument == "--seed" && i + 1 < argc) {
-      seed = std::strtoull(argv[++i], nullptr, 10);
+      options.seed = std::strtoull(argv[++i], nullptr, 10);
     } else if (argument == "--filter" && i + 1 < argc) {
-      filter = argv[++i];
+      options.filter = argv[++i];
+    } else if (argument == "--set" && i + 1 < argc) {
+      options.set = argv[++i];
+    } else if (argument == "--results" && i + 1 < argc) {
+      options.results = argv[++i];
     } else {
       std::fprintf(stderr,
                    "usage: corpus_score [--correct] [--open] [--sealed] [--gate] [--seed N] "
-                   "[--filter TEXT]\n");
+                   "[--filter TEXT] [--set NAME] [--results DIRECTORY]\n");
       return 2;
     }
   }
@@ -274,5 +255,5 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "corpus_score: this build has no such cases\n");
     return 2;
   }
-  return score(cases, seed, effort, filter);
+  return score(cases, options);
 }
