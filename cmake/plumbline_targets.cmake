@@ -32,3 +32,10 @@ function(plumbline_library name)
   plumbline_target_defaults(${target})
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC_LIBRARIES} PRIVATE ${arg_PRIVATE_LIBRARIES})
 endfunction()
+
+# Parses what nearly every source of a target includes once for all of them; the sources include it
+# all the same.
+function(plumbline_precompile_std target)
+  target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory>
+                            <optional> <string> <utility> <variant> <vector> ${ARGN})
+endfunction()

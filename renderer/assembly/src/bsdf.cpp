@@ -34,4 +34,7 @@ std::shared_ptr<const BsdfSet> make_bsdfs(std::vector<Bsdf> bsdfs) {
   return std::make_shared<const BsdfSet>(std::move(bsdfs));
 }
 
+PLUMBLINE_BSDF_REF(template, float)
+PLUMBLINE_BSDF_REF(template, double)
+
 }  // namespace plumbline::renderer

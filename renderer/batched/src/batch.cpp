@@ -212,7 +212,7 @@ class Batch final : public PixelSampler {
       const Vec3f direction = s_.next.direction[i];
       Rgbf radiance = renderer::radiance(scene_.lights()[light], direction);
       if (depth > 1) {
-        const Arrival arrival{techniques_, s_.pdf_w[i], s_.atom[i] != 0, s_.position[i]};
+        const Arrival arrival{techniques_, s_.pdf_w[i], s_.atom_mass[i] > 0, s_.position[i]};
         radiance = radiance * emission_weight(options_, scene_.lights(), arrival, light, direction);
       }
       radiance_[s_.path[i]] += s_.throughput[i] * radiance;

@@ -48,31 +48,20 @@ class BsdfRef {
   /// @return f [1/sr], without the cosine, for radiance: across a refraction it holds (η_o/η_i)².
   ///         Atoms do not show
   template <class T>
-  Rgb<T> eval(const Vec3<T>& wo, const Vec3<T>& wi) const {
-    return call<Rgb<T>>([&](const auto& b, const auto&... set) { return b.eval(set..., wo, wi); });
-  }
+  Rgb<T> eval(const Vec3<T>& wo, const Vec3<T>& wi) const;
 
   /// @param u  in [0, 1)²
   /// @return   nullopt where there is nothing to sample from wo, or u leads below the horizon
   template <class T>
-  std::optional<BsdfSample<T>> sample(const Vec3<T>& wo, const Vec2<T>& u) const {
-    return call<std::optional<BsdfSample<T>>>(
-        [&](const auto& b, const auto&... set) { return b.sample(set..., wo, u); });
-  }
+  std::optional<BsdfSample<T>> sample(const Vec3<T>& wo, const Vec2<T>& u) const;
 
   /// @return pdf_w [1/sr] with which `sample(wo, u)` gives wi, atoms excluded; finite, ≥ 0
   template <class T>
-  T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
-    return call<T>([&](const auto& b, const auto&... set) { return b.pdf(set..., wo, wi); });
-  }
+  T pdf(const Vec3<T>& wo, const Vec3<T>& wi) const;
 
-  /// eval(wo, wi) and pdf(wo, wi) at the cost of little more than one of them. Not inlined: then
-  /// the BSDF writes its answer where the caller wants it, without a copy.
+  /// eval(wo, wi) and pdf(wo, wi) at the cost of little more than one of them.
   template <class T>
-  [[gnu::noinline]] BsdfValue<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi) const {
-    return call<BsdfValue<T>>(
-        [&](const auto& b, const auto&... set) { return evaluate_bsdf(wo, wi, b, set...); });
-  }
+  BsdfValue<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi) const;
 
   /// A BSDF is a mixture of lobes: with probability P_k(wo) it samples lobe k, so that
   /// pdf = Σ P_k pdf_k, and each lobe's map of u to wi is smooth.
@@ -88,40 +77,16 @@ class BsdfRef {
 
   /// @return P_k [1]; they sum to 1
   template <class T>
-  T lobe_probability(const Vec3<T>& wo, std::uint32_t lobe) const {
-    return call<T>([&](const auto& b, const auto&... set) {
-      if constexpr (requires { b.lobe_count(set...); }) {
-        return b.lobe_probability(set..., wo, lobe);
-      } else {
-        return T(1);
-      }
-    });
-  }
+  T lobe_probability(const Vec3<T>& wo, std::uint32_t lobe) const;
 
   /// The lobe as if it were all of the BSDF: pdf_w and mass without P_k, weight of its own f.
   template <class T>
   std::optional<BsdfSample<T>> sample_lobe(const Vec3<T>& wo, std::uint32_t lobe,
-                                           const Vec2<T>& u) const {
-    return call<std::optional<BsdfSample<T>>>([&](const auto& b, const auto&... set) {
-      if constexpr (requires { b.lobe_count(set...); }) {
-        return b.sample_lobe(set..., wo, lobe, u);
-      } else {
-        return b.sample(set..., wo, u);
-      }
-    });
-  }
+                                           const Vec2<T>& u) const;
 
   /// @return pdf_w [1/sr] of `sample_lobe`
   template <class T>
-  T pdf_lobe(const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) const {
-    return call<T>([&](const auto& b, const auto&... set) {
-      if constexpr (requires { b.lobe_count(set...); }) {
-        return b.pdf_lobe(set..., wo, wi, lobe);
-      } else {
-        return b.pdf(set..., wo, wi);
-      }
-    });
-  }
+  T pdf_lobe(const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) const;
 
  private:
   friend class BsdfSet;
@@ -174,5 +139,76 @@ Result BsdfRef::call(const Function& function) const {
       },
       set_->alternative(index_));
 }
+
+template <class T>
+Rgb<T> BsdfRef::eval(const Vec3<T>& wo, const Vec3<T>& wi) const {
+  return call<Rgb<T>>([&](const auto& b, const auto&... set) { return b.eval(set..., wo, wi); });
+}
+
+template <class T>
+std::optional<BsdfSample<T>> BsdfRef::sample(const Vec3<T>& wo, const Vec2<T>& u) const {
+  return call<std::optional<BsdfSample<T>>>(
+      [&](const auto& b, const auto&... set) { return b.sample(set..., wo, u); });
+}
+
+template <class T>
+T BsdfRef::pdf(const Vec3<T>& wo, const Vec3<T>& wi) const {
+  return call<T>([&](const auto& b, const auto&... set) { return b.pdf(set..., wo, wi); });
+}
+
+template <class T>
+BsdfValue<T> BsdfRef::evaluate(const Vec3<T>& wo, const Vec3<T>& wi) const {
+  return call<BsdfValue<T>>(
+      [&](const auto& b, const auto&... set) { return evaluate_bsdf(wo, wi, b, set...); });
+}
+
+template <class T>
+T BsdfRef::lobe_probability(const Vec3<T>& wo, std::uint32_t lobe) const {
+  return call<T>([&](const auto& b, const auto&... set) {
+    if constexpr (requires { b.lobe_count(set...); }) {
+      return b.lobe_probability(set..., wo, lobe);
+    } else {
+      return T(1);
+    }
+  });
+}
+
+template <class T>
+std::optional<BsdfSample<T>> BsdfRef::sample_lobe(const Vec3<T>& wo, std::uint32_t lobe,
+                                                  const Vec2<T>& u) const {
+  return call<std::optional<BsdfSample<T>>>([&](const auto& b, const auto&... set) {
+    if constexpr (requires { b.lobe_count(set...); }) {
+      return b.sample_lobe(set..., wo, lobe, u);
+    } else {
+      return b.sample(set..., wo, u);
+    }
+  });
+}
+
+template <class T>
+T BsdfRef::pdf_lobe(const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) const {
+  return call<T>([&](const auto& b, const auto&... set) {
+    if constexpr (requires { b.lobe_count(set...); }) {
+      return b.pdf_lobe(set..., wo, wi, lobe);
+    } else {
+      return b.pdf(set..., wo, wi);
+    }
+  });
+}
+
+/// Every member for one scalar, as `extern template` declares it and `template` compiles it.
+#define PLUMBLINE_BSDF_REF(KEYWORDS, T)                                                        \
+  KEYWORDS Rgb<T> BsdfRef::eval(const Vec3<T>&, const Vec3<T>&) const;                         \
+  KEYWORDS std::optional<BsdfSample<T>> BsdfRef::sample(const Vec3<T>&, const Vec2<T>&) const; \
+  KEYWORDS T BsdfRef::pdf(const Vec3<T>&, const Vec3<T>&) const;                               \
+  KEYWORDS BsdfValue<T> BsdfRef::evaluate(const Vec3<T>&, const Vec3<T>&) const;               \
+  KEYWORDS T BsdfRef::lobe_probability(const Vec3<T>&, std::uint32_t) const;                   \
+  KEYWORDS std::optional<BsdfSample<T>> BsdfRef::sample_lobe(const Vec3<T>&, std::uint32_t,    \
+                                                             const Vec2<T>&) const;            \
+  KEYWORDS T BsdfRef::pdf_lobe(const Vec3<T>&, const Vec3<T>&, std::uint32_t) const;
+
+// Compiled once, in bsdf.cpp: every type for a scalar costs seconds.
+PLUMBLINE_BSDF_REF(extern template, float)
+PLUMBLINE_BSDF_REF(extern template, double)
 
 }  // namespace plumbline::renderer

@@ -43,17 +43,21 @@ void evaluate_each(const Evaluate& evaluate, Shading& s, Run run) {
   }
 }
 
+inline void store_sample(Shading& s, std::size_t k,
+                         const std::optional<BsdfSample<float>>& sample) {
+  const bool found = sample.has_value();
+  s.wi.set(k, found ? sample->wi : Vec3f{});
+  s.weight.set(k, found ? sample->weight : Rgbf{});
+  s.pdf_w[k] = found ? sample->pdf_w : 0;
+  s.atom_mass[k] = found ? sample->mass : 0;
+  s.refraction[k] = found ? sample->radiance_scale : 0;
+}
+
 /// @param sample  sample(wo, u) of one BSDF
 template <class Sample>
 void sample_each(const Sample& sample, Shading& s, Run run) {
   for (std::size_t k = run.first; k < run.end; ++k) {
-    const std::optional<BsdfSample<float>> drawn = sample(s.wo[k], Vec2f{s.u[k], s.v[k]});
-    const bool found = drawn.has_value();
-    s.wi.set(k, found ? drawn->wi : Vec3f{});
-    s.weight.set(k, found ? drawn->weight : Rgbf{});
-    s.pdf_w[k] = found ? drawn->pdf_w : 0;
-    s.atom[k] = found && drawn->is_atom() ? 1 : 0;
-    s.refraction[k] = found ? drawn->radiance_scale : 0;
+    store_sample(s, k, sample(s.wo[k], Vec2f{s.u[k], s.v[k]}));
   }
 }
 
@@ -69,7 +73,9 @@ PLUMBLINE_KERNEL void evaluate_run(const B& shared, Shading& s, Run run) {
 template <class B>
 PLUMBLINE_KERNEL void sample_run(const B& shared, Shading& s, Run run) {
   const Local<B> bsdf = shared;
-  sample_each([&bsdf](const Vec3f& wo, const Vec2f& u) { return bsdf.sample(wo, u); }, s, run);
+  for (std::size_t k = run.first; k < run.end; ++k) {
+    store_sample(s, k, bsdf.sample(s.wo[k], Vec2f{s.u[k], s.v[k]}));
+  }
 }
 
 }  // namespace plumbline::renderer

@@ -27,7 +27,7 @@ struct Shading {
   Vec3Lanes wi;             // local
   RgbLanes weight;          // of the BSDF sample; black: none
   Lanes<float> pdf_w;       // of a density
-  IndexLanes atom;          // 1 where the sample is one, else 0
+  Lanes<float> atom_mass;   // of an atom; 0 for a density
   Lanes<float> refraction;  // radiance_scale of the sample
   RayLanes next;
   IndexLanes next_kind;  // octant, or kDropped
