@@ -156,7 +156,7 @@ const std::vector<Refusal> kRefusals = {
      R"(3: <float name="alpha">: must lie between 0.0001 and 1)"},
     {"AlphaTwice",
      "<bsdf type=\"roughdielectric\" id=\"a\"><float name=\"alpha\" value=\"0.1\"/>\n"
-     R"(<float name="alpha_u" value="0.1"/></bsdf>)",
+     R"(<string name="distribution" value="ggx"/><float name="alpha_u" value="0.1"/></bsdf>)",
      R"(3: <float name="alpha">: either this, or alpha_u and alpha_v)"},
     {"MisspeltAlpha",
      "<bsdf type=\"roughconductor\" id=\"a\"><string name=\"distribution\" value=\"ggx\"/>\n"
@@ -183,7 +183,7 @@ const std::vector<Refusal> kRefusals = {
      R"(<bsdf type="dielectric" id="a"><float name="int_ior" value="3"/><float name="ext_ior" value="1"/></bsdf>)",
      R"(3: <float name="int_ior">: 3 times ext_ior: must lie between 0.4 and 2.5)"},
     {"RoughWithoutAStep",
-     R"(<bsdf type="roughdielectric" id="a"><string name="int_ior" value="air"/></bsdf>)",
+     R"(<bsdf type="roughdielectric" id="a"><string name="distribution" value="ggx"/><string name="int_ior" value="air"/></bsdf>)",
      R"(3: <string name="int_ior">: must differ from ext_ior by a thousandth: normals cannot be told otherwise)"},
     {"ClearCoatOfAir",
      R"(<bsdf type="clearcoat" id="a"><string name="int_ior" value="air"/></bsdf>)",

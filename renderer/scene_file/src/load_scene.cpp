@@ -90,13 +90,13 @@ class SceneReader {
   void read_the_integrator(const Element& element) {
     if (has_integrator_) element.fail("a scene has one <integrator> only");
     has_integrator_ = true;
-    scene_.integrator = read_integrator(element);
+    scene_.integrator = kIntegratorTypes.read(element);
   }
 
   void read_the_sensor(const Element& element) {
     if (has_sensor_) element.fail("a scene has one <sensor> only");
     has_sensor_ = true;
-    read_sensor(element, size_, scene_);
+    kSensorTypes.read(element, size_, scene_);
   }
 
   void read_shared_bsdf(const Element& element) {
@@ -114,7 +114,41 @@ class SceneReader {
   bool has_integrator_ = false, has_sensor_ = false;
 };
 
+/// What an element may be, wherever it stands.
+std::vector<ObjectRow> types_of(std::string_view tag) {
+  if (tag == "bsdf") return kBsdfTypes.rows();
+  if (tag == "film") return kFilmTypes.rows();
+  if (tag == "integrator") return kIntegratorTypes.rows();
+  if (tag == "rfilter") return kFilterTypes.rows();
+  if (tag == "sampler") return kSamplerTypes.rows();
+  if (tag == "sensor") return kSensorTypes.rows();
+  if (tag == "shape") return kShapeTypes.rows();
+  if (tag != "emitter") return {};
+  std::vector<ObjectRow> emitters = kAreaEmitterTypes.rows();
+  for (const ObjectRow& row : kSceneEmitterTypes.rows()) emitters.push_back(row);
+  return emitters;
+}
+
 }  // namespace
+
+std::vector<std::string> supported_types(std::string_view tag) {
+  std::vector<std::string> names;
+  for (const ObjectRow& type : types_of(tag)) names.push_back(type.name);
+  return names;
+}
+
+std::vector<SupportedProperty> supported_properties(std::string_view tag) {
+  std::vector<SupportedProperty> properties;
+  for (const ObjectRow& type : types_of(tag)) {
+    for (const PropertyRow& row : type.properties) {
+      properties.push_back(
+          {type.name, row.name,
+           row.kind == Kind::nested ? "object" : fmt::format("{}", fmt::join(row.tags(), " or ")),
+           row.absent == kRequired ? "required" : row.absent, row.range_text()});
+    }
+  }
+  return properties;
+}
 
 SceneDescription load_scene(const std::filesystem::path& file,
                             const std::map<std::string, std::string>& overrides,

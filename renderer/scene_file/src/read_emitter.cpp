@@ -15,122 +15,104 @@ namespace {
 
 constexpr double kMaxRadiance = 1e30;  // sums of it stay finite in single precision
 
-bool in_range(double value) { return value >= 0 && value <= kMaxRadiance; }
+constexpr Property<Kind::rgb> kRadiance{"radiance", kRequired, between(0, kMaxRadiance)};
+constexpr Property<Kind::string> kSampling{"sampling", "area", one_of("area", "solid_angle")};
+constexpr Property<Kind::boolean> kTwoSided{"two_sided", "false"};
+constexpr Property<Kind::number> kScale{"scale", "1", between(0, 1e6)};
+constexpr Property<Kind::boolean> kCompensation{"mis_compensation", "false"};
+constexpr Property<Kind::point> kPosition{"position", "0", between(-kMaxLength, kMaxLength)};
+constexpr Property<Kind::rgb> kIntensity{"intensity", kRequired, between(0, kMaxRadiance)};
+constexpr Property<Kind::vector> kDirection{"direction", kRequired};
+constexpr Property<Kind::number> kHalfAngle{"half_angle", "0.2665", between(1e-3, 90, " degrees")};
 
-Rgbd emission(Properties& properties, const std::string& name) {
-  const Rgbd value = properties.rgb(name);
-  if (!in_range(value.r) || !in_range(value.g) || !in_range(value.b)) {
-    properties.fail(name, fmt::format("must lie between 0 and {:g}", kMaxRadiance));
+/// Refuses a second emitter of a type that a scene has once.
+void allow_one(const Object& object, bool is_there) {
+  if (!is_there) return;
+  object.element().fail(
+      fmt::format("a scene has one {} <emitter> only", object.element().text("type")));
+}
+
+void read_area(const Object& object, ShapeDescription& shape) {
+  shape.radiance = object[kRadiance];
+  shape.light_two_sided = object[kTwoSided];
+  shape.light_by_solid_angle = object[kSampling] == "solid_angle";
+  const bool rectangle = std::holds_alternative<RectangleShape>(shape.geometry);
+  if (shape.light_by_solid_angle && !rectangle &&
+      !std::holds_alternative<MeshShape>(shape.geometry)) {
+    object.fail(kSampling, "only a rectangle or an obj can be sampled by solid_angle");
   }
-  return value;
-}
-
-Properties open(const Element& element, const std::vector<std::string>& types) {
-  element.allow_attributes({"type", "id", "name"});
-  element.type(types);
-  element.file().register_id(element);
-  return Properties(element);
-}
-
-PointDescription read_point(Properties& properties) {
-  const Vec3d position = properties.point("position", {0, 0, 0});
-  const Rgbd intensity = emission(properties, "intensity");
-  properties.finish();
-  if (!is_in_range(position)) {
-    properties.fail("position", fmt::format("puts a coordinate beyond {:g}", kMaxLength));
+  if (shape.light_two_sided && !rectangle) {
+    object.fail(kTwoSided, "only a rectangle can emit from both sides");
   }
-  return {position, intensity};
 }
 
-SunDescription read_sun(Properties& properties) {
-  const Vec3d travels = properties.vector("direction");
-  const double half_angle = properties.number("half_angle", SunAndSky::kSunHalfAngle);
-  const Rgbd radiance = emission(properties, "radiance");
-  properties.finish();
+void read_constant(const Object& object, SceneDescription& scene) {
+  allow_one(object, scene.environment.has_value());
+  scene.environment = object[kRadiance];
+}
+
+void read_point(const Object& object, SceneDescription& scene) {
+  scene.points.push_back({object[kPosition], object[kIntensity]});
+}
+
+void read_sun(const Object& object, SceneDescription& scene) {
+  allow_one(object, scene.sun.has_value());
+  const Vec3d& travels = object[kDirection];
   const double norm = length(travels);
   if (!(norm > 0 && std::isfinite(norm))) {
-    properties.fail("direction", "must have a length that is neither zero nor infinite");
+    object.fail(kDirection, "must have a length that is neither zero nor infinite");
   }
-  if (!(half_angle >= 1e-3 && half_angle <= 90)) {
-    properties.fail("half_angle", "must lie between 0.001 and 90 degrees");
-  }
-  return {-travels / norm, half_angle * pi<double>() / 180, radiance};
+  scene.sun = {-travels / norm, object[kHalfAngle] * pi<double>() / 180, object[kRadiance]};
 }
 
-Image read_map(const Properties& properties, const std::filesystem::path& file) {
+Image read_map(const Object& object) {
+  const std::filesystem::path& file = object[kFilename];
   Image image;
   try {
     image = read_exr(file);
   } catch (const InputError& error) {
-    properties.fail("filename", error.what());
+    object.fail(kFilename, error.what());
   }
   for (const Rgbf& p : image.pixels) {
     for (const float channel : {p.r, p.g, p.b}) {
-      if (in_range(static_cast<double>(channel))) continue;
-      properties.fail("filename",
-                      fmt::format("{} holds a pixel that does not lie between 0 and {:g}",
-                                  file.string(), kMaxRadiance));
+      if (channel >= 0 && static_cast<double>(channel) <= kMaxRadiance) continue;
+      object.fail(kFilename, fmt::format("{} holds a pixel that does not lie between 0 and {:g}",
+                                         file.string(), kMaxRadiance));
     }
   }
   return image;
 }
 
-EnvironmentMap read_environment_map(Properties& properties, const SceneFile& file) {
-  const std::string name = properties.string("filename");
-  const double scale = properties.number("scale", 1);
-  const bool compensation = properties.boolean("mis_compensation", false);
-  const Affine to_world = properties.transform("to_world");
-  properties.finish();
-  if (name.empty()) properties.fail("filename", "names no file");
-  if (!(scale >= 0 && scale <= 1e6)) properties.fail("scale", "must lie between 0 and 1e+06");
+void read_environment_map(const Object& object, SceneDescription& scene) {
+  allow_one(object, scene.environment_map.has_value());
+  const Affine& to_world = object[kToWorld];
   if (!is_rigid(to_world)) {
-    properties.fail("to_world", "an environment may be turned and mirrored, not scaled or sheared");
+    object.fail(kToWorld, "an environment may be turned and mirrored, not scaled or sheared");
   }
-  Image image = read_map(properties, file.path().parent_path() / name);
-  return {std::make_shared<EnvironmentTable>(image.width, image.height, std::move(image.pixels),
-                                             compensation),
-          {vec_cast<float>(normalize(to_world.x)), vec_cast<float>(normalize(to_world.y)),
-           vec_cast<float>(normalize(to_world.z))},
-          static_cast<float>(scale)};
+  Image image = read_map(object);
+  scene.environment_map = {
+      std::make_shared<EnvironmentTable>(image.width, image.height, std::move(image.pixels),
+                                         object[kCompensation]),
+      {vec_cast<float>(normalize(to_world.x)), vec_cast<float>(normalize(to_world.y)),
+       vec_cast<float>(normalize(to_world.z))},
+      static_cast<float>(object[kScale])};
 }
 
 }  // namespace
 
-void read_area_emitter(const Element& element, ShapeDescription& shape) {
-  Properties properties = open(element, {"area"});
-  shape.radiance = emission(properties, "radiance");
-  const std::string sampling = properties.string("sampling", "area");
-  shape.light_two_sided = properties.boolean("two_sided", false);
-  properties.finish();
-  shape.light_by_solid_angle = sampling == "solid_angle";
-  if (sampling != "area" && sampling != "solid_angle") {
-    properties.fail("sampling", "must be area or solid_angle");
-  }
-  if (shape.light_by_solid_angle && !std::holds_alternative<RectangleShape>(shape.geometry) &&
-      !std::holds_alternative<MeshShape>(shape.geometry)) {
-    properties.fail("sampling", "only a rectangle or an obj can be sampled by solid_angle");
-  }
-  if (shape.light_two_sided && !std::holds_alternative<RectangleShape>(shape.geometry)) {
-    properties.fail("two_sided", "only a rectangle can emit from both sides");
-  }
-}
+const ObjectTypes<void, ShapeDescription&> kAreaEmitterTypes = {
+    {"area", {kRadiance, kSampling, kTwoSided}, read_area},
+};
+
+const ObjectTypes<void, SceneDescription&> kSceneEmitterTypes = {
+    {"constant", {kRadiance}, read_constant},
+    {"envmap", {kFilename, kScale, kToWorld, kCompensation}, read_environment_map},
+    {"point", {kPosition, kIntensity}, read_point},
+    {"sun", {kDirection, kHalfAngle, kRadiance}, read_sun},
+};
 
 void read_scene_emitter(const Element& element, SceneDescription& scene) {
-  Properties properties = open(element, {"constant", "envmap", "point", "sun"});
-  const std::string type = element.text("type");
-  if (type == "point") {
-    scene.points.push_back(read_point(properties));
-  } else if (type == "sun") {
-    if (scene.sun) element.fail("a scene has one sun only");
-    scene.sun = read_sun(properties);
-  } else if (type == "constant") {
-    if (scene.environment) element.fail("a scene has one constant <emitter> only");
-    scene.environment = emission(properties, "radiance");
-    properties.finish();
-  } else {
-    if (scene.environment_map) element.fail("a scene has one envmap <emitter> only");
-    scene.environment_map = read_environment_map(properties, element.file());
-  }
+  kSceneEmitterTypes.read(element, scene);
   if (scene.environment_map && (scene.environment || scene.sun)) {
     element.fail("an envmap is all the light from far away: no constant and no sun beside it");
   }

@@ -161,24 +161,24 @@ MeshShape make_mesh(const ParsedObj& parsed, const Affine& to_world) {
 
 }  // namespace
 
-MeshShape read_mesh(const Properties& shape, const std::filesystem::path& file,
-                    const Affine& to_world) {
+MeshShape read_mesh(const Object& shape) {
+  const std::filesystem::path& file = shape[kFilename];
   std::string text;
   try {
     text = read_text_file(file, kMaxMeshBytes);
   } catch (const InputError& error) {
-    shape.fail("filename", error.what());
+    shape.fail(kFilename, error.what());
   }
   ObjCheck(file, text).run();
-  MeshShape mesh = make_mesh(parse_obj(file, text), to_world);
+  MeshShape mesh = make_mesh(parse_obj(file, text), shape[kToWorld]);
   for (const Vec3d& vertex : mesh.vertices) {
     if (!is_in_range(vertex)) {
-      shape.fail("filename",
+      shape.fail(kFilename,
                  fmt::format("{} puts a coordinate beyond {:g}", file.string(), kMaxLength));
     }
   }
   if (mesh.triangles.empty()) {
-    shape.fail("filename", fmt::format("{} has no triangle with an area", file.string()));
+    shape.fail(kFilename, fmt::format("{} has no triangle with an area", file.string()));
   }
   return mesh;
 }

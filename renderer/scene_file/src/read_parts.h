@@ -2,49 +2,56 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <plumbline/renderer/assembly/bsdf.h>
 #include <plumbline/renderer/core/scene/description.h>
 
-#include "properties.h"
+#include "object.h"
 #include "scene_file.h"
 
-/// The parts of a scene file, each read by one function from its element.
+/// The parts of a scene file: the types of each element, and who keeps what was read.
 namespace plumbline::renderer {
 
-/// <sensor>: camera, film size and samples per pixel go into the scene.
-///
-/// @param size  film size in place of the file's
-void read_sensor(const Element& element, std::optional<FilmSize> size, SceneDescription& scene);
+/// A BSDF and what those that nest it need to know of it.
+struct ReadBsdf {
+  Bsdf bsdf;
+  double ext_ior = 1;     ///< index outside
+  double int_ior = 1e30;  ///< index inside, of a dielectric
+  BsdfParts parts = {};
+  int depth = 0;  ///< levels of BSDFs below it
+};
+
+class BsdfReader;
+using Geometry = decltype(ShapeDescription::geometry);
+
+// What a scene file may hold, by element: every type with its properties and its reader.
+extern const ObjectTypes<IntegratorDescription> kIntegratorTypes;
+extern const ObjectTypes<void, std::optional<FilmSize>, SceneDescription&> kSensorTypes;
+extern const ObjectTypes<FilmSize> kFilmTypes;
+extern const ObjectTypes<void> kFilterTypes;
+extern const ObjectTypes<int> kSamplerTypes;
+extern const ObjectTypes<ReadBsdf, BsdfReader&> kBsdfTypes;
+extern const ObjectTypes<Geometry> kShapeTypes;
+extern const ObjectTypes<void, ShapeDescription&> kAreaEmitterTypes;
+extern const ObjectTypes<void, SceneDescription&> kSceneEmitterTypes;
+
+inline constexpr Property<Kind::file> kFilename{"filename", kRequired};
+inline constexpr Property<Kind::transform> kToWorld{"to_world", "identity"};
 
 /// @return why a film of that size is refused; empty if it is not
 std::string film_size_error(const FilmSize& size);
 
-/// <integrator>
-IntegratorDescription read_integrator(const Element& element);
-
-/// The <emitter> of a shape whose geometry has been read.
-void read_area_emitter(const Element& element, ShapeDescription& shape);
-
-/// An <emitter> of the scene: constant, envmap, point or sun.
+/// An <emitter> of the scene, beside those that it has.
 void read_scene_emitter(const Element& element, SceneDescription& scene);
 
-/// Geometry of a shape of any type. Everything but geometry must have been taken from
-/// `properties`.
-decltype(ShapeDescription::geometry) read_geometry(const std::string& type, Properties& properties);
-
-/// An obj file's triangles, moved to world space.
-///
-/// @param shape  the element to blame where the file cannot be read
-MeshShape read_mesh(const Properties& shape, const std::filesystem::path& file,
-                    const Affine& to_world);
+/// The triangles of an obj file, moved to world space. What is wrong with it is the error of the
+/// shape's kFilename.
+MeshShape read_mesh(const Object& shape);
 
 /// The scene's BSDFs and who refers to them by id. Nested ones come before those that hold them.
 class BsdfReader {
@@ -63,28 +70,19 @@ class BsdfReader {
   /// @throws InputError if there is no BSDF with that id
   std::uint32_t resolve(const Element& ref, const std::string& id, const char* where = "") const;
 
+  /// Reads <bsdf>s, and finds those that <ref>s name above them.
+  /// @return their indices
+  std::vector<std::uint32_t> read_nested(const std::vector<Element>& elements);
+
+  const ReadBsdf& operator[](std::uint32_t index) const { return bsdfs_[index]; }
+
   /// All that were read; once.
-  std::shared_ptr<const BsdfSet> take() { return make_bsdfs(std::move(bsdfs_)); }
+  std::shared_ptr<const BsdfSet> take();
 
  private:
-  /// What those that nest a BSDF need to know of it.
-  struct Known {
-    BsdfParts parts;
-    int depth = 0;          ///< levels of BSDFs below it
-    double ext_ior = 1;     ///< index outside
-    double int_ior = 1e30;  ///< index inside, of a dielectric
-  };
+  std::uint32_t add(ReadBsdf read);
 
-  Bsdf read_type(const std::string& type, Properties& properties, Known& known);
-  std::vector<std::uint32_t> read_nested(Properties& properties, std::size_t least,
-                                         std::size_t most, Known& known);
-  Bsdf read_two_sided(Properties& properties, Known& known);
-  Bsdf read_mixture(Properties& properties, Known& known);
-  Bsdf read_thin_film(Properties& properties);
-  std::uint32_t add(Bsdf bsdf, Known known);
-
-  std::vector<Bsdf> bsdfs_;
-  std::vector<Known> known_;  ///< of each of `bsdfs_`
+  std::vector<ReadBsdf> bsdfs_;
   std::map<std::string, std::uint32_t> by_id_;
   std::optional<std::uint32_t> fallback_;
 };

@@ -8,39 +8,37 @@
 namespace plumbline::renderer {
 namespace {
 
-constexpr int kMitsubaSampleCount = 4;
+constexpr Property<Kind::integer> kMaxDepth{"max_depth", "-1",
+                                            at_least(-1, ", which is unlimited")};
+constexpr Property<Kind::integer> kRrDepth{"rr_depth", "5", at_least(1)};
+constexpr Property<Kind::number> kFov{
+    "fov", kRequired, {.low = 0, .high = 180, .more = " degrees", .open = true}};
+constexpr Property<Kind::string> kFovAxis{"fov_axis", "x",
+                                          one_of("x", "y", "diagonal", "smaller", "larger")};
+constexpr Property<Kind::nested> kFilm{"film", kRequired};
+constexpr Property<Kind::nested> kSampler{"sampler", "independent"};
+constexpr Property<Kind::integer> kWidth{"width", "768"};
+constexpr Property<Kind::integer> kHeight{"height", "576"};
+constexpr Property<Kind::string> kPixelFormat{"pixel_format", "rgb", one_of("rgb")};
+constexpr Property<Kind::string> kComponentFormat{"component_format", "float32", one_of("float32")};
+constexpr Property<Kind::nested> kFilter{"rfilter", kRequired};
+constexpr Property<Kind::integer> kSampleCount{"sample_count", "4", at_least(1)};
 
-int read_sampler(const Element& element) {
-  element.allow_attributes({"type", "id", "name"});
-  element.type();
-  element.file().register_id(element);
-  Properties properties(element);
-  const int sample_count = properties.integer("sample_count", kMitsubaSampleCount);
-  properties.finish();
-  if (sample_count < 1) properties.fail("sample_count", "must be at least 1");
-  return sample_count;
+IntegratorDescription read_path(const Object& object) {
+  return {object[kMaxDepth], object[kRrDepth]};
 }
 
-FilmSize read_film(const Element& element) {
-  element.allow_attributes({"type", "id", "name"});
-  element.type();
-  element.file().register_id(element);
-  Properties properties(element);
-  const FilmSize size{properties.integer("width", 768), properties.integer("height", 576)};
-  const std::string pixels = properties.string("pixel_format", "rgb");
-  const std::string components = properties.string("component_format", "float32");
-  const std::optional<Element> filter = properties.required_object("rfilter");
-  properties.finish();
-  if (pixels != "rgb") properties.fail("pixel_format", "only \"rgb\" is supported");
-  if (components != "float32") {
-    properties.fail("component_format", "only \"float32\" is supported");
-  }
+IntegratorDescription read_direct(const Object&) { return {.max_depth = 2}; }
+
+int read_sampler(const Object& object) { return object[kSampleCount]; }
+
+void read_filter(const Object&) {}  // each pixel averages its own square
+
+FilmSize read_film(const Object& object) {
+  const FilmSize size{object[kWidth], object[kHeight]};
   const std::string wrong = film_size_error(size);
-  if (!wrong.empty()) properties.fail("width", wrong);
-  filter->allow_attributes({"type", "id", "name"});
-  filter->type();
-  filter->file().register_id(*filter);
-  Properties(*filter).finish();
+  if (!wrong.empty()) object.fail(kWidth, wrong);
+  kFilterTypes.read(object[kFilter].front());
   return size;
 }
 
@@ -58,7 +56,46 @@ double horizontal_tangent(const std::string& axis, double tangent, double aspect
   return tangent;
 }
 
+void read_perspective(const Object& object, std::optional<FilmSize> size, SceneDescription& scene) {
+  const Affine& to_world = object[kToWorld];
+  if (!is_rigid(to_world)) {
+    object.fail(kToWorld, "a camera may be turned and moved, not scaled or sheared");
+  }
+  if (!is_in_range(to_world.origin)) object.fail(kToWorld, "the camera is too far away");
+  const FilmSize in_file = kFilmTypes.read(object[kFilm].front());
+  const FilmSize used = size.value_or(in_file);
+  const std::vector<Element>& samplers = object[kSampler];
+  scene.samples_per_pixel =
+      samplers.empty() ? object.absent(kSampleCount) : kSamplerTypes.read(samplers.front());
+  const double tangent = std::tan(object[kFov] * pi<double>() / 360);
+  scene.camera = {.origin = to_world.origin,
+                  .left = normalize(to_world.x),
+                  .up = normalize(to_world.y),
+                  .forward = normalize(to_world.z),
+                  .tan_half_fov_x = horizontal_tangent(
+                      object[kFovAxis], tangent, static_cast<double>(used.width) / used.height),
+                  .width = used.width,
+                  .height = used.height};
+}
+
 }  // namespace
+
+const ObjectTypes<IntegratorDescription> kIntegratorTypes = {
+    {"path", {kMaxDepth, kRrDepth}, read_path},
+    {"direct", {}, read_direct},
+};
+
+const ObjectTypes<void, std::optional<FilmSize>, SceneDescription&> kSensorTypes = {
+    {"perspective", {kFov, kFovAxis, kToWorld, kFilm, kSampler}, read_perspective},
+};
+
+const ObjectTypes<FilmSize> kFilmTypes = {
+    {"hdrfilm", {kWidth, kHeight, kPixelFormat, kComponentFormat, kFilter}, read_film},
+};
+
+const ObjectTypes<void> kFilterTypes = {{"box", {}, read_filter}};
+
+const ObjectTypes<int> kSamplerTypes = {{"independent", {kSampleCount}, read_sampler}};
 
 std::string film_size_error(const FilmSize& size) {
   constexpr int kMaxSide = 1 << 16;
@@ -69,64 +106,6 @@ std::string film_size_error(const FilmSize& size) {
   }
   return fmt::format("a film of {}x{} is not supported: sides go from 1 to {}, pixels up to {}",
                      size.width, size.height, kMaxSide, kMaxPixels);
-}
-
-void read_sensor(const Element& element, std::optional<FilmSize> size, SceneDescription& scene) {
-  element.allow_attributes({"type", "id", "name"});
-  element.type();
-  element.file().register_id(element);
-  Properties properties(element);
-  const double fov = properties.number("fov");
-  const std::string axis = properties.string("fov_axis", "x");
-  const Affine to_world = properties.transform("to_world");
-  const std::optional<Element> film = properties.required_object("film");
-  const std::optional<Element> sampler = properties.object("sampler");
-  properties.finish();
-
-  if (!(fov > 0 && fov < 180)) {
-    properties.fail("fov", "must lie between 0 and 180 degrees, both excluded");
-  }
-  if (axis != "x" && axis != "y" && axis != "diagonal" && axis != "smaller" && axis != "larger") {
-    properties.fail("fov_axis", "must be x, y, diagonal, smaller or larger");
-  }
-  if (!is_rigid(to_world)) {
-    properties.fail("to_world", "a camera may be turned and moved, not scaled or sheared");
-  }
-  if (!is_in_range(to_world.origin)) properties.fail("to_world", "the camera is too far away");
-  const FilmSize in_file = read_film(*film);
-  const FilmSize used = size.value_or(in_file);
-  scene.samples_per_pixel = sampler ? read_sampler(*sampler) : kMitsubaSampleCount;
-
-  const double tangent = std::tan(fov * pi<double>() / 360);
-  scene.camera = {.origin = to_world.origin,
-                  .left = normalize(to_world.x),
-                  .up = normalize(to_world.y),
-                  .forward = normalize(to_world.z),
-                  .tan_half_fov_x = horizontal_tangent(
-                      axis, tangent, static_cast<double>(used.width) / used.height),
-                  .width = used.width,
-                  .height = used.height};
-}
-
-IntegratorDescription read_integrator(const Element& element) {
-  element.allow_attributes({"type", "id", "name"});
-  const std::string type = element.type();
-  element.file().register_id(element);
-  Properties properties(element);
-  IntegratorDescription integrator;
-  if (type == "direct") {
-    integrator.max_depth = 2;
-    properties.finish();
-    return integrator;
-  }
-  integrator.max_depth = properties.integer("max_depth", integrator.max_depth);
-  integrator.rr_depth = properties.integer("rr_depth", integrator.rr_depth);
-  properties.finish();
-  if (integrator.max_depth < -1) {
-    properties.fail("max_depth", "must be -1 (unlimited) or at least 0");
-  }
-  if (integrator.rr_depth < 1) properties.fail("rr_depth", "must be at least 1");
-  return integrator;
 }
 
 }  // namespace plumbline::renderer

@@ -1,25 +1,36 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "read_parts.h"
-#include "text_file.h"
 
 namespace plumbline::renderer {
 namespace {
 
-using Geometry = decltype(ShapeDescription::geometry);
+constexpr Property<Kind::nested> kBsdf{"bsdf", "diffuse"};
+constexpr Property<Kind::nested> kEmitter{"emitter", "none"};
+constexpr Property<Kind::point> kCenter{"center", "0"};
+constexpr Property<Kind::number> kRadius{"radius", "1", kPositive};
+constexpr Property<Kind::boolean> kFaceNormals{"face_normals", "false"};
+constexpr Property<Kind::boolean> kFlipNormals{"flip_normals", "false"};
 
-void check_point(const Properties& properties, const std::string& name, const Vec3d& point) {
+/// The properties of a shape: its own among those that all have.
+std::vector<PropertyRow> with_common(const std::vector<PropertyRow>& own) {
+  std::vector<PropertyRow> rows = {kBsdf, kEmitter};
+  rows.insert(rows.end(), own.begin(), own.end());
+  rows.insert(rows.end(), {kFlipNormals, kToWorld});
+  return rows;
+}
+
+void check_point(const Object& object, const PropertyRow& property, const Vec3d& point) {
   if (!is_in_range(point)) {
-    properties.fail(name, fmt::format("puts a coordinate beyond {:g}", kMaxLength));
+    object.fail(property, fmt::format("puts a coordinate beyond {:g}", kMaxLength));
   }
 }
 
-void check_length(const Properties& properties, const std::string& name, double length) {
+void check_length(const Object& object, const PropertyRow& property, double length) {
   if (!(length >= 1 / kMaxLength && length <= kMaxLength)) {
-    properties.fail(name, fmt::format("makes a length of {:g}: lengths go from {:g} to {:g}",
+    object.fail(property, fmt::format("makes a length of {:g}: lengths go from {:g} to {:g}",
                                       length, 1 / kMaxLength, kMaxLength));
   }
 }
@@ -28,71 +39,65 @@ void check_length(const Properties& properties, const std::string& name, double 
 /// while edge × edge changes sign.
 bool mirrors(const Affine& to_world) { return to_world.determinant() < 0; }
 
-Geometry read_sphere(Properties& properties) {
-  const Vec3d center = properties.point("center", {0, 0, 0});
-  const double radius = properties.number("radius", 1);
-  const bool flip = properties.boolean("flip_normals", false);
-  const Affine m = properties.transform("to_world");
-  properties.finish();
-  if (!(radius > 0)) properties.fail("radius", "must be positive");
+Geometry read_sphere(const Object& object) {
+  const Affine& m = object[kToWorld];
   if (!perpendicular(m.x, m.y) || !perpendicular(m.y, m.z) || !perpendicular(m.z, m.x) ||
       !same_length(m.x, m.y) || !same_length(m.x, m.z)) {
-    properties.fail("to_world", "would make an ellipsoid: scale a sphere alike along all axes");
+    object.fail(kToWorld, "would make an ellipsoid: scale a sphere alike along all axes");
   }
-  const SphereShape sphere{m.point(center), radius * length(m.x), flip};
-  check_point(properties, "center", sphere.center);
-  check_length(properties, "radius", sphere.radius);
+  const SphereShape sphere{m.point(object[kCenter]), object[kRadius] * length(m.x),
+                           object[kFlipNormals]};
+  check_point(object, kCenter, sphere.center);
+  check_length(object, kRadius, sphere.radius);
   return sphere;
 }
 
 /// [-1, 1]² in the plane z = 0, facing +z.
-Geometry read_rectangle(Properties& properties) {
-  const bool flip = properties.boolean("flip_normals", false);
-  const Affine m = properties.transform("to_world");
-  properties.finish();
+Geometry read_rectangle(const Object& object) {
+  const Affine& m = object[kToWorld];
   if (!perpendicular(m.x, m.y)) {
-    properties.fail("to_world", "shears the rectangle: its edges must stay perpendicular");
+    object.fail(kToWorld, "shears the rectangle: its edges must stay perpendicular");
   }
   for (const double s : {-1.0, 1.0}) {
-    for (const double t : {-1.0, 1.0}) check_point(properties, "to_world", m.point({s, t, 0}));
+    for (const double t : {-1.0, 1.0}) check_point(object, kToWorld, m.point({s, t, 0}));
   }
-  check_length(properties, "to_world", 2 * length(m.x));
-  check_length(properties, "to_world", 2 * length(m.y));
-  return RectangleShape{m.point({-1, -1, 0}), m.x * 2.0, m.y * 2.0, flip != mirrors(m)};
+  check_length(object, kToWorld, 2 * length(m.x));
+  check_length(object, kToWorld, 2 * length(m.y));
+  return RectangleShape{m.point({-1, -1, 0}), m.x * 2.0, m.y * 2.0,
+                        object[kFlipNormals] != mirrors(m)};
 }
 
 /// Unit disk in the plane z = 0, facing +z.
-Geometry read_disk(Properties& properties) {
-  const bool flip = properties.boolean("flip_normals", false);
-  const Affine m = properties.transform("to_world");
-  properties.finish();
+Geometry read_disk(const Object& object) {
+  const Affine& m = object[kToWorld];
   if (!perpendicular(m.x, m.y) || !same_length(m.x, m.y)) {
-    properties.fail("to_world", "would make an ellipse: scale a disk alike along x and y");
+    object.fail(kToWorld, "would make an ellipse: scale a disk alike along x and y");
   }
-  check_point(properties, "to_world", m.origin);
-  check_length(properties, "to_world", length(m.x));
+  check_point(object, kToWorld, m.origin);
+  check_length(object, kToWorld, length(m.x));
   const Vec3d normal = normalize(cross(normalize(m.x), normalize(m.y)));
-  return DiskShape{m.origin, flip != mirrors(m) ? -normal : normal, length(m.x)};
+  return DiskShape{m.origin, object[kFlipNormals] != mirrors(m) ? -normal : normal, length(m.x)};
 }
 
-Geometry read_obj(Properties& properties, const SceneFile& file) {
-  const std::string name = properties.string("filename");
-  const bool flip = properties.boolean("flip_normals", false);
-  const bool face_normals = properties.boolean("face_normals", false);
-  const Affine to_world = properties.transform("to_world");
-  properties.finish();
-  if (name.empty()) properties.fail("filename", "names no file");
-  if (!face_normals) {
-    properties.fail("face_normals",
-                    "smooth normals are not supported: an obj needs "
-                    "<boolean name=\"face_normals\" value=\"true\"/>");
+Geometry read_obj(const Object& object) {
+  if (!object[kFaceNormals]) {
+    object.fail(kFaceNormals,
+                "smooth normals are not supported: an obj needs "
+                "<boolean name=\"face_normals\" value=\"true\"/>");
   }
-  MeshShape mesh = read_mesh(properties, file.path().parent_path() / name, to_world);
-  mesh.flip_normals = flip;
+  MeshShape mesh = read_mesh(object);
+  mesh.flip_normals = object[kFlipNormals];
   return mesh;
 }
 
 }  // namespace
+
+const ObjectTypes<Geometry> kShapeTypes = {
+    {"sphere", with_common({kCenter, kRadius}), read_sphere},
+    {"rectangle", with_common({}), read_rectangle},
+    {"disk", with_common({}), read_disk},
+    {"obj", with_common({kFilename, kFaceNormals}), read_obj},
+};
 
 bool is_in_range(const Vec3d& point) {
   return std::abs(point.x) <= kMaxLength && std::abs(point.y) <= kMaxLength &&
@@ -100,27 +105,17 @@ bool is_in_range(const Vec3d& point) {
 }
 
 void ShapeReader::read(const Element& element) {
-  element.allow_attributes({"type", "id", "name"});
-  const std::string type = element.type();
-  element.file().register_id(element);
-  Properties properties(element);
-  const std::optional<Element> bsdf = properties.object("bsdf");
-  const std::optional<Element> reference = properties.object("ref");
-  const std::optional<Element> emitter = properties.object("emitter");
-  if (bsdf && reference) reference->fail("a shape has one BSDF: a <bsdf> or a <ref>, not both");
-
+  const auto& type = kShapeTypes.of(element);
+  const Object object(element, type);
   ShapeDescription shape;
-  if (type == "sphere") shape.geometry = read_sphere(properties);
-  if (type == "rectangle") shape.geometry = read_rectangle(properties);
-  if (type == "disk") shape.geometry = read_disk(properties);
-  if (type == "obj") shape.geometry = read_obj(properties, element.file());
-  if (emitter) read_area_emitter(*emitter, shape);
-  if (bsdf) {
-    shape.bsdf = bsdfs_.read(*bsdf);
-  } else if (reference) {
-    references_.push_back({shapes_.size(), *reference, reference->text("id")});
-  } else {
+  shape.geometry = type.read(object);
+  for (const Element& emitter : object[kEmitter]) kAreaEmitterTypes.read(emitter, shape);
+  if (object[kBsdf].empty()) {
     shape.bsdf = bsdfs_.fallback();
+  } else if (const Element& bsdf = object[kBsdf].front(); bsdf.tag() == "bsdf") {
+    shape.bsdf = bsdfs_.read(bsdf);
+  } else {
+    references_.push_back({shapes_.size(), bsdf, bsdf.text("id")});
   }
   shapes_.push_back(std::move(shape));
 }

@@ -8,30 +8,11 @@
 #include <stdexcept>
 
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/scene/description.h>
-#include <plumbline/renderer/scene_file/load_scene.h>
 #include <plumbline/renderer/scene_file/nearest_name.h>
 
 #include "text_file.h"
 
 namespace plumbline::renderer {
-
-std::vector<std::string> supported_types(std::string_view tag) {
-  static const std::map<std::string_view, std::vector<std::string>> types = {
-      {"bsdf",
-       {"diffuse", "conductor", "roughconductor", "dielectric", "roughdielectric", "twosided",
-        "blendbsdf", "clearcoat", "thinfilm", "phong"}},
-      {"emitter", {"area", "constant", "envmap", "point", "sun"}},
-      {"film", {"hdrfilm"}},
-      {"integrator", {"path", "direct"}},
-      {"rfilter", {"box"}},
-      {"sampler", {"independent"}},
-      {"sensor", {"perspective"}},
-      {"shape", {"sphere", "rectangle", "disk", "obj"}},
-  };
-  const auto found = types.find(tag);
-  return found == types.end() ? std::vector<std::string>{} : found->second;
-}
 
 std::string Element::text(const char* attribute) const {
   const pugi::xml_attribute found = node_.attribute(attribute);
@@ -43,16 +24,17 @@ std::string Element::text(const char* attribute) const {
   }
 }
 
-std::string Element::type(const std::vector<std::string>& supported) const {
-  std::string value = text("type");
-  if (std::find(supported.begin(), supported.end(), value) == supported.end()) {
+std::size_t Element::type(const std::vector<std::string>& supported) const {
+  allow_attributes({"type", "id", "name"});
+  const std::string value = text("type");
+  const auto found = std::find(supported.begin(), supported.end(), value);
+  if (found == supported.end()) {
     fail(fmt::format("<{}> of type {} is not supported; {}", tag(), in_quotes(value),
                      name_hint(value, supported)));
   }
-  return value;
+  file_->register_id(*this);
+  return static_cast<std::size_t>(found - supported.begin());
 }
-
-std::string Element::type() const { return type(supported_types(tag())); }
 
 void Element::allow_attributes(const std::vector<std::string>& allowed) const {
   for (const pugi::xml_attribute attribute : node_.attributes()) {

@@ -27,9 +27,8 @@ class Element {
   /// Value of an attribute that must be there, with parameters put in.
   std::string text(const char* attribute) const;
 
-  /// Value of `type`, which must be one of those given; without them, of supported_types().
-  std::string type(const std::vector<std::string>& supported) const;
-  std::string type() const;
+  /// Which of these its `type` is. Registers its id: this is what reading an object begins with.
+  std::size_t type(const std::vector<std::string>& supported) const;
 
   /// Refuses every attribute that is not named here.
   void allow_attributes(const std::vector<std::string>& allowed) const;

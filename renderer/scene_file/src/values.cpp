@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -37,14 +36,6 @@ T parse(const Element& element, std::string_view text, std::string_view kind) {
   return value;
 }
 
-/// One number stands for three equal ones.
-std::array<double, 3> parse_one_or_three(const Element& element, std::string_view text) {
-  const std::vector<double> n = parse_numbers(element, text);
-  if (n.size() == 1) return {n[0], n[0], n[0]};
-  if (n.size() == 3) return {n[0], n[1], n[2]};
-  element.fail(fmt::format("{} needs one or three numbers, not {}", element.label(), n.size()));
-}
-
 }  // namespace
 
 double parse_number(const Element& element, std::string_view text) {
@@ -72,6 +63,13 @@ std::vector<double> parse_numbers(const Element& element, std::string_view text)
   }
 }
 
+Vec3d parse_vector(const Element& element, std::string_view text) {
+  const std::vector<double> n = parse_numbers(element, text);
+  if (n.size() == 1) return {n[0], n[0], n[0]};
+  if (n.size() == 3) return {n[0], n[1], n[2]};
+  element.fail(fmt::format("{} needs one or three numbers, not {}", element.label(), n.size()));
+}
+
 Vec3d parse_xyz(const Element& element, double absent) {
   const bool by_coordinate = element.has("x") || element.has("y") || element.has("z");
   if (by_coordinate == element.has("value")) {
@@ -84,8 +82,7 @@ Vec3d parse_xyz(const Element& element, double absent) {
     };
     return {coordinate("x"), coordinate("y"), coordinate("z")};
   }
-  const std::array n = parse_one_or_three(element, element.text("value"));
-  return {n[0], n[1], n[2]};
+  return parse_vector(element, element.text("value"));
 }
 
 Vec3d parse_triple(const Element& element, const char* attribute) {
@@ -98,8 +95,8 @@ Vec3d parse_triple(const Element& element, const char* attribute) {
 }
 
 Rgbd parse_rgb(const Element& element, std::string_view text) {
-  const std::array n = parse_one_or_three(element, text);
-  return {n[0], n[1], n[2]};
+  const Vec3d v = parse_vector(element, text);
+  return {v.x, v.y, v.z};
 }
 
 }  // namespace plumbline::renderer

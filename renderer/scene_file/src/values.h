@@ -19,6 +19,9 @@ int parse_integer(const Element& element, std::string_view text);
 /// Numbers separated by spaces, or by commas with or without spaces.
 std::vector<double> parse_numbers(const Element& element, std::string_view text);
 
+/// One number for all coordinates, or three.
+Vec3d parse_vector(const Element& element, std::string_view text);
+
 /// `value` with one or three numbers, or any of `x`, `y`, `z`.
 ///
 /// @param absent  what a coordinate is that is not given

@@ -25,4 +25,15 @@ SceneDescription load_scene(const std::filesystem::path& file,
 /// Empty for an element that has no type.
 std::vector<std::string> supported_types(std::string_view tag);
 
+/// A property of such a type, as the tables of docs/scene_format.md have it.
+struct SupportedProperty {
+  std::string type, name;
+  std::string kind;    ///< the element that gives it, "float or string"; "object" for a nested one
+  std::string absent;  ///< the default, or "required"
+  std::string range;   ///< "0 to 1"; empty where every value of the kind is taken
+};
+
+/// What the types of an element may be given, in the order of supported_types().
+std::vector<SupportedProperty> supported_properties(std::string_view tag);
+
 }  // namespace plumbline::renderer

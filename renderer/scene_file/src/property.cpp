@@ -1,0 +1,173 @@
+#include "property.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <plumbline/renderer/scene_file/nearest_name.h>
+
+#include "text_file.h"
+#include "values.h"
+
+namespace plumbline::renderer {
+namespace {
+
+template <Kind K>
+Value value(ValueOf<K> v) {
+  return Value(std::in_place_index<static_cast<std::size_t>(K)>, std::move(v));
+}
+
+[[noreturn]] void fail(const Element& element, const std::string& message) {
+  element.fail(fmt::format("{}: {}", element.label(), message));
+}
+
+template <class T>
+std::vector<std::string> names_of(const std::map<std::string, T>& table) {
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : table) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> names_of(const Range& range) {
+  return {range.choices.begin(), std::find(range.choices.begin(), range.choices.end(), nullptr)};
+}
+
+template <class T>
+const T& look_up(const std::map<std::string, T>& table, const Element& element,
+                 const std::string& name) {
+  const auto found = table.find(name);
+  if (found == table.end()) {
+    fail(element,
+         fmt::format("{} is not known; {}", in_quotes(name), name_hint(name, names_of(table))));
+  }
+  return found->second;
+}
+
+bool parse_boolean(const Element& element, const std::string& text) {
+  if (text != "true" && text != "false") {
+    fail(element, fmt::format("{} is neither \"true\" nor \"false\"", in_quotes(text)));
+  }
+  return text == "true";
+}
+
+/// A default, which stands at the object, is a name.
+double parse_index(const Element& element, const std::string& text) {
+  return element.tag() == "float" ? parse_number(element, text)
+                                  : look_up(kRefractiveIndices, element, text);
+}
+
+std::filesystem::path parse_file(const Element& element, const std::string& text) {
+  if (text.empty()) fail(element, "names no file");
+  return element.file().path().parent_path() / text;
+}
+
+/// What there is to know of a kind.
+struct KindRow {
+  std::vector<std::string> tags;  ///< of the elements that give one
+
+  /// @param at  the property to blame, or the object where the text is a default
+  Value (*of_text)(const Element& at, const std::string& text);
+};
+
+/// In the order of Kind.
+const std::array<KindRow, std::variant_size_v<Value>>& kinds() {
+  using E = const Element&;
+  using S = const std::string&;
+  static const std::array<KindRow, std::variant_size_v<Value>> rows{{
+      {{"float"}, [](E at, S text) { return value<Kind::number>(parse_number(at, text)); }},
+      {{"integer"}, [](E at, S text) { return value<Kind::integer>(parse_integer(at, text)); }},
+      {{"boolean"}, [](E at, S text) { return value<Kind::boolean>(parse_boolean(at, text)); }},
+      {{"string"}, [](E, S text) { return value<Kind::string>(text); }},
+      {{"rgb"}, [](E at, S text) { return value<Kind::rgb>(parse_rgb(at, text)); }},
+      {{"point"}, [](E at, S text) { return value<Kind::point>(parse_vector(at, text)); }},
+      {{"vector"}, [](E at, S text) { return value<Kind::vector>(parse_vector(at, text)); }},
+      {{"transform"}, [](E, S) { return value<Kind::transform>({}); }},
+      {{"float", "string"}, [](E at, S text) { return value<Kind::index>(parse_index(at, text)); }},
+      {{"string"}, [](E at, S text) { return value<Kind::metal>(look_up(kMetals, at, text)); }},
+      {{"string"}, [](E at, S text) { return value<Kind::file>(parse_file(at, text)); }},
+      {{}, [](E, S) { return value<Kind::nested>({}); }},
+  }};
+  return rows;
+}
+
+const KindRow& row_of(Kind kind) { return kinds().at(static_cast<std::size_t>(kind)); }
+
+Value parse_element(Kind kind, const Element& element) {
+  if (kind == Kind::transform) {
+    element.allow_attributes({"name"});
+    return value<Kind::transform>(read_transform(element));
+  }
+  const bool has_coordinates = kind == Kind::point || kind == Kind::vector;
+  element.allow_attributes(has_coordinates
+                               ? std::vector<std::string>{"name", "x", "y", "z", "value"}
+                               : std::vector<std::string>{"name", "value"});
+  element.allow_no_children();
+  if (kind == Kind::point) return value<Kind::point>(parse_xyz(element, 0));
+  if (kind == Kind::vector) return value<Kind::vector>(parse_xyz(element, 0));
+  return row_of(kind).of_text(element, element.text("value"));
+}
+
+/// What of a value has to lie between the bounds.
+struct Numbers {
+  std::vector<double> operator()(double v) const { return {v}; }
+  std::vector<double> operator()(int v) const { return {static_cast<double>(v)}; }
+  std::vector<double> operator()(const Rgbd& v) const { return {v.r, v.g, v.b}; }
+  std::vector<double> operator()(const Vec3d& v) const { return {v.x, v.y, v.z}; }
+  template <class T>
+  std::vector<double> operator()(const T&) const {
+    return {};
+  }
+};
+
+void check(const Range& range, const Element& element, const Value& v) {
+  const std::vector<std::string> choices = names_of(range);
+  if (!choices.empty()) {
+    const auto& name = std::get<std::string>(v);
+    if (std::find(choices.begin(), choices.end(), name) == choices.end()) {
+      fail(element, fmt::format("{} is not supported; supported: {}", in_quotes(name),
+                                fmt::join(choices, ", ")));
+    }
+  }
+  for (const double n : std::visit(Numbers{}, v)) {
+    if (range.open ? n > range.low && n < range.high : n >= range.low && n <= range.high) continue;
+    if (range.high < Range{}.high) {
+      fail(element, fmt::format("must lie between {:g} and {:g}{}{}", range.low, range.high,
+                                range.more, range.open ? ", both excluded" : ""));
+    }
+    fail(element, range.open ? "must be positive"
+                             : fmt::format("must be at least {:g}{}", range.low, range.more));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> PropertyRow::tags() const {
+  if (kind != Kind::nested) return row_of(kind).tags;
+  return name == std::string("bsdf") ? std::vector<std::string>{"bsdf", "ref"}
+                                     : std::vector<std::string>{name};
+}
+
+std::string PropertyRow::range_text() const {
+  const std::vector<std::string> names = kind == Kind::metal ? names_of(kMetals) : names_of(range);
+  if (!names.empty()) return fmt::format("{}", fmt::join(names, ", "));
+  if (range.low == -Range{}.high) return {};
+  if (range.high == Range{}.high) {
+    return fmt::format("{} {:g}", range.open ? ">" : "≥", range.low);
+  }
+  if (range.low == range.high) return fmt::format("{:g}", range.low);
+  return fmt::format("{:g} to {:g}{}", range.low, range.high, range.open ? ", excluded" : "");
+}
+
+Value parse_property(const PropertyRow& row, const Element& element) {
+  Value result = parse_element(row.kind, element);
+  check(row.range, element, result);
+  return result;
+}
+
+Value absent_property(const PropertyRow& row, const Element& object) {
+  return row_of(row.kind).of_text(object, row.absent);
+}
+
+}  // namespace plumbline::renderer
