@@ -167,6 +167,26 @@ TEST(Obj, VerticesAreMovedInDouble) {
   EXPECT_NEAR(mesh.vertices[0].y, 0.2, 1e-15);
 }
 
+TEST(Obj, CoordinatesAreTheDoublesNearestToTheText) {
+  const auto mesh = only_shape<MeshShape>(
+      load_with_obj("v 0.1 12345.678901234567 -2.2250738585072014e-308\nv 1e-7 3.5E2 0\n"
+                    "v 0 1 .5\nf 1 2 3\n"));
+  EXPECT_EQ(mesh.vertices[0].x, 0.1);
+  EXPECT_EQ(mesh.vertices[0].y, 12345.678901234567);
+  EXPECT_EQ(mesh.vertices[0].z, -2.2250738585072014e-308);
+  EXPECT_EQ(mesh.vertices[1].x, 1e-7);
+  EXPECT_EQ(mesh.vertices[1].y, 350);
+  EXPECT_EQ(mesh.vertices[2].z, 0.5);
+}
+
+TEST(Obj, FacesOfGroupsThatComeBackKeepTheFilesOrder) {
+  const auto mesh = only_shape<MeshShape>(load_with_obj(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\ng a\nf 1 2 3\nv 0 0 1\ng b\nf 1 2 4\ng a\nf 1 3 4"));
+  ASSERT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_EQ(mesh.triangles[1], (std::array<std::uint32_t, 3>{0, 1, 3}));
+  EXPECT_EQ(mesh.triangles[2], (std::array<std::uint32_t, 3>{0, 2, 3}));
+}
+
 TEST(Obj, FlipNormalsIsPassedOn) {
   EXPECT_TRUE(
       only_shape<MeshShape>(load_with_obj(kQuad, R"(<boolean name="flip_normals" value="true"/>)"))

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
-#include <sstream>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <plumbline/renderer/core/errors.h>
@@ -17,9 +20,10 @@ namespace plumbline::renderer {
 namespace {
 
 constexpr std::size_t kMaxMeshBytes = std::size_t{512} << 20;
-constexpr int kMaxCorners = 255;  // tinyobjloader counts a face's corners in a byte
+constexpr std::size_t kMaxCorners = 255;  // what readers hold that count them in a byte
 constexpr std::string_view kSpace = " \t\r";
 
+/// Empty at the end of the line.
 std::string_view take_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(kSpace), line.size()));
   const std::string_view word = line.substr(0, line.find_first_of(kSpace));
@@ -33,23 +37,22 @@ bool parses_whole(std::string_view word, T& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// Goes through an obj file before tinyobjloader does, which reads what it does not understand as
-/// zero, drops faces with vertices that do not exist, and grants any size that the file asks for.
-class ObjCheck {
+/// Reads an obj file line by line. What it asks for in memory is in proportion to its text.
+class ObjReader {
  public:
-  ObjCheck(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
+  ObjReader(const std::filesystem::path& file, const Affine& to_world)
+      : file_(file), to_world_(to_world) {}
 
-  void run() {
-    std::string_view rest = text_;
-    while (!rest.empty()) {
+  MeshShape read(std::string_view text) {
+    bool has_faces = false;
+    while (!text.empty()) {
       ++line_number_;
-      const std::size_t end = std::min(rest.find('\n'), rest.size());
-      check_line(rest.substr(0, end));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      has_faces = read_line(text.substr(0, end)) || has_faces;
+      text.remove_prefix(std::min(end + 1, text.size()));
     }
-    if (faces_ == 0) {
-      throw InputError(fmt::format("{}: holds no faces", file_.string()));
-    }
+    if (!has_faces) throw InputError(fmt::format("{}: holds no faces", file_.string()));
+    return std::move(mesh_);
   }
 
  private:
@@ -57,107 +60,73 @@ class ObjCheck {
     throw InputError(fmt::format("{}:{}: {}", file_.string(), line_number_, message));
   }
 
-  void check_line(std::string_view line) {
+  /// @return whether it is a face
+  bool read_line(std::string_view line) {
     const std::string_view keyword = take_word(line);
-    if (keyword.empty() || keyword[0] == '#') return;
-    if (keyword == "v") return check_vertex(line);
-    if (keyword == "f") return check_face(line);
+    if (keyword.empty() || keyword[0] == '#') return false;
+    if (keyword == "v") {
+      read_vertex(line);
+      return false;
+    }
+    if (keyword == "f") {
+      read_face(line);
+      return true;
+    }
     for (const std::string_view ignored : {"vn", "vt", "o", "g", "s", "usemtl", "mtllib"}) {
-      if (keyword == ignored) return;
+      if (keyword == ignored) return false;
     }
     fail(fmt::format("{} is not supported in an obj file", in_quotes(keyword)));
   }
 
-  void check_vertex(std::string_view line) {
-    ++vertices_;
-    int count = 0;
+  void read_vertex(std::string_view line) {
+    std::array<double, 3> p{};
+    std::size_t count = 0;
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
       double value = 0;
       if (!parses_whole(word, value) || !std::isfinite(value)) {
         fail(fmt::format("{} is not a finite number", in_quotes(word)));
       }
+      if (count < p.size()) p[count] = value;
       ++count;
     }
-    if (count != 3) fail(fmt::format("a vertex needs three coordinates, not {}", count));
+    if (count != p.size()) fail(fmt::format("a vertex needs three coordinates, not {}", count));
+    mesh_.vertices.push_back(to_world_.point({p[0], p[1], p[2]}));
   }
 
-  void check_face(std::string_view line) {
-    ++faces_;
-    int corners = 0;
+  void read_face(std::string_view line) {
+    corners_.clear();
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
       long long index = 0;
       if (!parses_whole(word.substr(0, word.find('/')), index)) {
         fail(fmt::format("{} is not a vertex of a face", in_quotes(word)));
       }
-      if (index < 1 || index > vertices_) {
-        fail(fmt::format("vertex {} does not exist: {} stand above this face", index, vertices_));
+      if (index < 1 || index > static_cast<long long>(mesh_.vertices.size())) {
+        fail(fmt::format("vertex {} does not exist: {} stand above this face", index,
+                         mesh_.vertices.size()));
       }
-      ++corners;
+      corners_.push_back(static_cast<std::uint32_t>(index - 1));
     }
-    if (corners < 3 || corners > kMaxCorners) {
-      fail(fmt::format("a face has 3 to {} vertices, not {}", kMaxCorners, corners));
+    if (corners_.size() < 3 || corners_.size() > kMaxCorners) {
+      fail(fmt::format("a face has 3 to {} vertices, not {}", kMaxCorners, corners_.size()));
+    }
+    for (std::size_t i = 2; i < corners_.size(); ++i) {
+      add_triangle({corners_[0], corners_[i - 1], corners_[i]});
     }
   }
 
-  std::filesystem::path file_;
-  std::string_view text_;
+  /// Triangles without area are left out: no ray meets them and they emit nothing.
+  void add_triangle(const std::array<std::uint32_t, 3>& t) {
+    const Vec3d& v0 = mesh_.vertices[t[0]];
+    const Vec3d normal = cross(mesh_.vertices[t[1]] - v0, mesh_.vertices[t[2]] - v0);
+    if (length_squared(normal) > 0) mesh_.triangles.push_back(t);
+  }
+
+  const std::filesystem::path& file_;
+  const Affine& to_world_;
+  MeshShape mesh_;
   std::size_t line_number_ = 0;
-  long long vertices_ = 0;
-  std::size_t faces_ = 0;
+  std::vector<std::uint32_t> corners_;  ///< of the face that is being read
 };
-
-struct ParsedObj {
-  tinyobj::attrib_t attributes;
-  std::vector<tinyobj::shape_t> shapes;
-};
-
-ParsedObj parse_obj(const std::filesystem::path& file, const std::string& text) {
-  ParsedObj parsed;
-  std::vector<tinyobj::material_t> materials;
-  std::string warning, error;
-  std::istringstream in(text);
-  const bool ok = tinyobj::LoadObj(&parsed.attributes, &parsed.shapes, &materials, &warning, &error,
-                                   &in, nullptr, /*triangulate=*/false,
-                                   /*default_vcols_fallback=*/false);
-  if (!ok) throw InputError(fmt::format("{}: {}", file.string(), error));
-  return parsed;
-}
-
-bool has_area(const MeshShape& mesh, const std::array<std::uint32_t, 3>& t) {
-  const Vec3d& v0 = mesh.vertices[t[0]];
-  const Vec3d normal = cross(mesh.vertices[t[1]] - v0, mesh.vertices[t[2]] - v0);
-  return length_squared(normal) > 0;
-}
-
-/// Polygons become fans around their first vertex, as in Mitsuba. Triangles without area are left
-/// out: no ray meets them and they emit nothing.
-void add_fan(const std::vector<std::uint32_t>& corners, MeshShape& mesh) {
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    const std::array<std::uint32_t, 3> triangle{corners[0], corners[i - 1], corners[i]};
-    if (has_area(mesh, triangle)) mesh.triangles.push_back(triangle);
-  }
-}
-
-MeshShape make_mesh(const ParsedObj& parsed, const Affine& to_world) {
-  MeshShape mesh;
-  const auto& coordinates = parsed.attributes.vertices;
-  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {
-    mesh.vertices.push_back(
-        to_world.point({coordinates[i], coordinates[i + 1], coordinates[i + 2]}));
-  }
-  std::vector<std::uint32_t> corners;
-  for (const tinyobj::shape_t& shape : parsed.shapes) {
-    std::size_t next = 0;
-    for (const auto corner_count : shape.mesh.num_face_vertices) {
-      corners.clear();
-      for (std::size_t i = 0; i < corner_count; ++i) {
-        corners.push_back(static_cast<std::uint32_t>(shape.mesh.indices[next++].vertex_index));
-      }
-      add_fan(corners, mesh);
-    }
-  }
-  return mesh;
-}
 
 }  // namespace
 
@@ -169,13 +138,10 @@ MeshShape read_mesh(const Object& shape) {
   } catch (const InputError& error) {
     shape.fail(kFilename, error.what());
   }
-  ObjCheck(file, text).run();
-  MeshShape mesh = make_mesh(parse_obj(file, text), shape[kToWorld]);
-  for (const Vec3d& vertex : mesh.vertices) {
-    if (!is_in_range(vertex)) {
-      shape.fail(kFilename,
-                 fmt::format("{} puts a coordinate beyond {:g}", file.string(), kMaxLength));
-    }
+  MeshShape mesh = ObjReader(file, shape[kToWorld]).read(text);
+  if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), is_in_range)) {
+    shape.fail(kFilename,
+               fmt::format("{} puts a coordinate beyond {:g}", file.string(), kMaxLength));
   }
   if (mesh.triangles.empty()) {
     shape.fail(kFilename, fmt::format("{} has no triangle with an area", file.string()));
