@@ -123,8 +123,8 @@ Topic heuristics() {
 /// What a scene file may name as the type of an element.
 Topic types(const std::string& topic_name, const std::string& tag) {
   Topic topic{topic_name, fmt::format("<{} type=…> in a scene file", tag), {}};
-  for (const std::string& type : renderer::supported_types(tag)) {
-    topic.entries.push_back({type, {}});
+  for (const renderer::SupportedType& type : renderer::supported_types(tag)) {
+    topic.entries.push_back({type.name, {}});
   }
   return topic;
 }

@@ -75,14 +75,12 @@ std::multiset<Row> supported() {
   std::multiset<Row> rows;
   for (const char* tag :
        {"integrator", "sensor", "film", "rfilter", "sampler", "bsdf", "shape", "emitter"}) {
-    const auto properties = renderer::supported_properties(tag);
-    for (const std::string& type : renderer::supported_types(tag)) {
-      const auto is_its = [&](const auto& property) { return property.type == type; };
-      if (std::none_of(properties.begin(), properties.end(), is_its)) {
-        rows.insert({type, "", "", "", ""});
+    for (const renderer::SupportedType& type : renderer::supported_types(tag)) {
+      if (type.properties.empty()) rows.insert({type.name, "", "", "", ""});
+      for (const auto& p : type.properties) {
+        rows.insert({type.name, p.name, p.kind, p.absent, p.range});
       }
     }
-    for (const auto& p : properties) rows.insert({p.type, p.name, p.kind, p.absent, p.range});
   }
   return rows;
 }

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <plumbline/renderer/core/errors.h>
@@ -20,7 +21,7 @@ namespace {
 class SceneReader {
  public:
   SceneReader(SceneFile& file, std::optional<FilmSize> size, SceneDescription& scene)
-      : file_(file), size_(size), scene_(scene), shapes_(scene.shapes, bsdfs_) {}
+      : file_(file), size_(size), scene_(scene) {}
 
   void read() {
     const Element root = file_.root();
@@ -32,7 +33,7 @@ class SceneReader {
     check_version(root);
     check_override_names(root);
     for (const Element& child : root.children()) read_child(child);
-    shapes_.resolve_references();
+    for (const auto& [shape, ref] : references_) scene_.shapes[shape].bsdf = bsdfs_.resolve(ref);
     scene_.bsdfs = bsdfs_.take();
     if (!has_sensor_) root.fail("the scene has no <sensor>");
     if (scene_.shapes.empty() && !scene_.environment && !scene_.environment_map && !scene_.sun) {
@@ -61,16 +62,18 @@ class SceneReader {
   }
 
   void read_child(const Element& element) {
+    static const std::vector<std::pair<std::string, void (SceneReader::*)(const Element&)>> kinds =
+        {{"default", &SceneReader::read_default}, {"integrator", &SceneReader::read_integrator},
+         {"sensor", &SceneReader::read_sensor},   {"bsdf", &SceneReader::read_bsdf},
+         {"shape", &SceneReader::read_shape},     {"emitter", &SceneReader::read_emitter}};
     const std::string tag = element.tag();
-    if (tag == "default") return read_default(element);
-    if (tag == "integrator") return read_the_integrator(element);
-    if (tag == "sensor") return read_the_sensor(element);
-    if (tag == "bsdf") return read_shared_bsdf(element);
-    if (tag == "shape") return shapes_.read(element);
-    if (tag == "emitter") return read_scene_emitter(element, scene_);
-    element.fail(fmt::format(
-        "<scene> may not hold <{}>; {}", tag.substr(0, 60),
-        name_hint(tag, {"default", "integrator", "sensor", "bsdf", "shape", "emitter"})));
+    std::vector<std::string> tags;
+    for (const auto& [name, read] : kinds) {
+      if (name == tag) return (this->*read)(element);
+      tags.push_back(name);
+    }
+    element.fail(
+        fmt::format("<scene> may not hold <{}>; {}", tag.substr(0, 60), name_hint(tag, tags)));
   }
 
   void read_default(const Element& element) {
@@ -87,67 +90,73 @@ class SceneReader {
     }
   }
 
-  void read_the_integrator(const Element& element) {
+  void read_integrator(const Element& element) {
     if (has_integrator_) element.fail("a scene has one <integrator> only");
     has_integrator_ = true;
     scene_.integrator = kIntegratorTypes.read(element);
   }
 
-  void read_the_sensor(const Element& element) {
+  void read_sensor(const Element& element) {
     if (has_sensor_) element.fail("a scene has one <sensor> only");
     has_sensor_ = true;
     kSensorTypes.read(element, size_, scene_);
   }
 
-  void read_shared_bsdf(const Element& element) {
+  void read_bsdf(const Element& element) {
     if (!element.has("id")) {
       element.fail(fmt::format("{} needs an id, or no shape can refer to it", element.label()));
     }
     bsdfs_.read(element);
   }
 
+  void read_shape(const Element& element) {
+    ShapeDescription shape;
+    const auto ref = renderer::read_shape(element, bsdfs_, shape);
+    if (ref) references_.emplace_back(scene_.shapes.size(), *ref);
+    scene_.shapes.push_back(std::move(shape));
+  }
+
+  void read_emitter(const Element& element) {
+    kSceneEmitterTypes.read(element, scene_);
+    if (scene_.environment_map && (scene_.environment || scene_.sun)) {
+      element.fail("an envmap is all the light from far away: no constant and no sun beside it");
+    }
+  }
+
   SceneFile& file_;
   std::optional<FilmSize> size_;
   SceneDescription& scene_;
   BsdfReader bsdfs_;
-  ShapeReader shapes_;
+  std::vector<std::pair<std::size_t, Element>> references_;  ///< shapes with their <ref>s
   bool has_integrator_ = false, has_sensor_ = false;
 };
 
-/// What an element may be, wherever it stands.
-std::vector<ObjectRow> types_of(std::string_view tag) {
-  if (tag == "bsdf") return kBsdfTypes.rows();
-  if (tag == "film") return kFilmTypes.rows();
-  if (tag == "integrator") return kIntegratorTypes.rows();
-  if (tag == "rfilter") return kFilterTypes.rows();
-  if (tag == "sampler") return kSamplerTypes.rows();
-  if (tag == "sensor") return kSensorTypes.rows();
-  if (tag == "shape") return kShapeTypes.rows();
-  if (tag != "emitter") return {};
-  std::vector<ObjectRow> emitters = kAreaEmitterTypes.rows();
-  for (const ObjectRow& row : kSceneEmitterTypes.rows()) emitters.push_back(row);
-  return emitters;
-}
-
 }  // namespace
 
-std::vector<std::string> supported_types(std::string_view tag) {
-  std::vector<std::string> names;
-  for (const ObjectRow& type : types_of(tag)) names.push_back(type.name);
-  return names;
-}
-
-std::vector<SupportedProperty> supported_properties(std::string_view tag) {
-  std::vector<SupportedProperty> properties;
-  for (const ObjectRow& type : types_of(tag)) {
-    for (const PropertyRow& row : type.properties) {
-      properties.push_back(
-          {type.name, row.name,
-           row.kind == Kind::nested ? "object" : fmt::format("{}", fmt::join(row.tags(), " or ")),
-           row.absent == kRequired ? "required" : row.absent, row.range_text()});
+std::vector<SupportedType> supported_types(std::string_view tag) {
+  const std::vector<std::pair<std::string_view, std::vector<ObjectRow>>> tables = {
+      {"bsdf", kBsdfTypes.rows()},
+      {"emitter", kAreaEmitterTypes.rows()},
+      {"emitter", kSceneEmitterTypes.rows()},
+      {"film", kFilmTypes.rows()},
+      {"integrator", kIntegratorTypes.rows()},
+      {"rfilter", kFilterTypes.rows()},
+      {"sampler", kSamplerTypes.rows()},
+      {"sensor", kSensorTypes.rows()},
+      {"shape", kShapeTypes.rows()}};
+  std::vector<SupportedType> types;
+  for (const auto& [element, rows] : tables) {
+    for (const ObjectRow& type : element == tag ? rows : std::vector<ObjectRow>{}) {
+      types.push_back({type.name, {}});
+      for (const PropertyRow& row : type.properties) {
+        types.back().properties.push_back(
+            {row.name,
+             row.kind == Kind::nested ? "object" : fmt::format("{}", fmt::join(row.tags(), " or ")),
+             row.absent == kRequired ? "required" : row.absent, row.range_text()});
+      }
     }
   }
-  return properties;
+  return types;
 }
 
 SceneDescription load_scene(const std::filesystem::path& file,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include <plumbline/renderer/scene_file/nearest_name.h>
 
@@ -24,6 +25,11 @@ bool contains(const Range& range, const T& value) {
 
 bool is_property(const Element& element) { return contains(kPropertyTags, element.tag()); }
 
+bool gives(const Element& child, const PropertyRow& row) {
+  return row.kind == Kind::nested ? contains(row.tags(), child.tag())
+                                  : is_property(child) && child.text("name") == row.name;
+}
+
 std::string with_hint(const std::string& message, const std::string& name,
                       const std::vector<std::string>& known) {
   const std::string hint = name_hint(name, known);
@@ -33,72 +39,60 @@ std::string with_hint(const std::string& message, const std::string& name,
 }  // namespace
 
 Object::Object(const Element& element, const ObjectRow& type) : element_(element) {
-  for (const Element& child : element.children()) {
-    if (!is_property(child)) {
-      nested_.push_back(child);
-      continue;
-    }
-    const std::string name = child.text("name");
-    if (!given_.emplace(name, child).second) {
-      child.fail(fmt::format("{} has a second property {}", element.label(), in_quotes(name)));
-    }
-  }
+  const std::vector<Element> children = element.children();
   for (const PropertyRow& row : type.properties) {
-    row.kind == Kind::nested ? read_nested(row) : read(row);
+    std::vector<Element> given;
+    std::copy_if(children.begin(), children.end(), std::back_inserter(given),
+                 [&](const Element& child) { return gives(child, row); });
+    row.kind == Kind::nested ? read_nested(row, given) : read(row, given);
   }
-  for (const Element& child : element.children()) {
-    const bool known =
-        std::any_of(type.properties.begin(), type.properties.end(), [&](const PropertyRow& row) {
-          return row.kind == Kind::nested ? contains(row.tags(), child.tag())
-                                          : is_property(child) && child.text("name") == row.name;
-        });
-    if (!known) refuse(child, type);
+  for (const Element& child : children) {
+    if (std::none_of(type.properties.begin(), type.properties.end(),
+                     [&](const PropertyRow& row) { return gives(child, row); })) {
+      refuse(child, type);
+    }
   }
   if (!missing_.empty()) element.fail(element.label() + missing_);
 }
 
-void Object::read(const PropertyRow& row) {
-  const auto found = given_.find(row.name);
-  const std::vector<std::string> tags = row.tags();
-  if (found == given_.end()) {
-    if (row.absent != kRequired) {
-      values_.emplace(row.name, absent_property(row, element_));
-    } else if (missing_.empty()) {
-      missing_ = fmt::format(" needs <{} name=\"{}\">", tags.front(), row.name);
+void Object::read(const PropertyRow& row, const std::vector<Element>& given) {
+  const std::string tags = fmt::format("{}", fmt::join(row.tags(), "> or <"));
+  if (given.empty() && row.absent == kRequired) {
+    if (missing_.empty()) missing_ = fmt::format(" needs <{} name=\"{}\">", tags, row.name);
+  } else if (given.empty()) {
+    values_.emplace(row.name, absent_property(row, element_));
+  } else {
+    const Element& property = given.front();
+    if (given.size() > 1) {
+      given[1].fail(fmt::format("{} has a second property \"{}\"", element_.label(), row.name));
     }
-    return;
+    if (!contains(row.tags(), property.tag())) {
+      property.fail(
+          fmt::format("{} of {} must be a <{}>", property.label(), element_.label(), tags));
+    }
+    given_.emplace(row.name, property);
+    values_.emplace(row.name, parse_property(row, property));
   }
-  const Element& property = found->second;
-  if (!contains(tags, property.tag())) {
-    property.fail(fmt::format("{} of {} must be a <{}>", property.label(), element_.label(),
-                              fmt::join(tags, "> or <")));
-  }
-  values_.emplace(row.name, parse_property(row, property));
 }
 
-void Object::read_nested(const PropertyRow& row) {
-  const std::vector<std::string> tags = row.tags();
-  const std::string what = fmt::format("<{}>", fmt::join(tags, "> or <"));
-  std::vector<Element> found;
-  for (const Element& object : nested_) {
-    if (contains(tags, object.tag())) found.push_back(object);
-  }
-  const auto count = static_cast<double>(found.size());
+void Object::read_nested(const PropertyRow& row, const std::vector<Element>& given) {
+  const std::string tags = fmt::format("<{}>", fmt::join(row.tags(), "> or <"));
+  const auto count = static_cast<double>(given.size());
   const Range& range = row.range;
+  std::string wrong;
   if (range.high < Range{}.high) {
-    if (missing_.empty() && !(count >= range.low && count <= range.high)) {
-      missing_ =
-          fmt::format(": nests {} BSDFs: {}",
-                      range.low == range.high ? fmt::format("{:g}", range.high)
-                                              : fmt::format("{:g} or {:g}", range.low, range.high),
-                      what);
+    const bool either = range.low < range.high;
+    if (count < range.low || count > range.high) {
+      wrong = fmt::format(": nests {}{:g} BSDFs: {}",
+                          either ? fmt::format("{:g} or ", range.low) : "", range.high, tags);
     }
   } else if (count > 1) {
-    found[1].fail(fmt::format("{} may hold one {} only", element_.label(), what));
-  } else if (count == 0 && row.absent == kRequired && missing_.empty()) {
-    missing_ = fmt::format(" needs {}", what);
+    given[1].fail(fmt::format("{} may hold one {} only", element_.label(), tags));
+  } else if (count == 0 && row.absent == kRequired) {
+    wrong = fmt::format(" needs {}", tags);
   }
-  values_.emplace(row.name, std::move(found));
+  if (missing_.empty()) missing_ = wrong;
+  values_.emplace(row.name, given);
 }
 
 void Object::refuse(const Element& child, const ObjectRow& type) const {

@@ -49,13 +49,12 @@ class Object {
   [[noreturn]] void fail(const PropertyRow& property, const std::string& message) const;
 
  private:
-  void read(const PropertyRow& row);
-  void read_nested(const PropertyRow& row);
+  void read(const PropertyRow& row, const std::vector<Element>& given);
+  void read_nested(const PropertyRow& row, const std::vector<Element>& given);
   [[noreturn]] void refuse(const Element& child, const ObjectRow& type) const;
 
   Element element_;
-  std::map<std::string, Element> given_;  ///< properties by name
-  std::vector<Element> nested_;
+  std::map<std::string_view, Element> given_;  ///< properties
   std::map<std::string_view, Value> values_;
   std::string missing_;  ///< what to say if nothing else is wrong
 };

@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include <plumbline/renderer/core/bsdf/fresnel.h>
 #include <plumbline/renderer/core/math.h>
 
-#include "materials.h"
 #include "scene_file.h"
 #include "transform.h"
 

@@ -168,8 +168,7 @@ std::uint32_t BsdfReader::read(const Element& element) {
 std::vector<std::uint32_t> BsdfReader::read_nested(const std::vector<Element>& elements) {
   std::vector<std::uint32_t> indices;
   for (const Element& element : elements) {
-    indices.push_back(element.tag() == "ref" ? resolve(element, element.text("id"), " above it")
-                                             : read(element));
+    indices.push_back(element.tag() == "ref" ? resolve(element, " above it") : read(element));
   }
   return indices;
 }
@@ -202,10 +201,10 @@ std::shared_ptr<const BsdfSet> BsdfReader::take() {
   return make_bsdfs(std::move(bsdfs));
 }
 
-std::uint32_t BsdfReader::resolve(const Element& ref, const std::string& id,
-                                  const char* where) const {
+std::uint32_t BsdfReader::resolve(const Element& ref, const char* where) const {
   ref.allow_attributes({"id", "name"});
   ref.allow_no_children();
+  const std::string id = ref.text("id");
   const auto found = by_id_.find(id);
   if (found != by_id_.end()) return found->second;
   const std::string tag = ref.file().tag_of_id(id);

@@ -111,11 +111,4 @@ const ObjectTypes<void, SceneDescription&> kSceneEmitterTypes = {
     {"sun", {kDirection, kHalfAngle, kRadiance}, read_sun},
 };
 
-void read_scene_emitter(const Element& element, SceneDescription& scene) {
-  kSceneEmitterTypes.read(element, scene);
-  if (scene.environment_map && (scene.environment || scene.sun)) {
-    element.fail("an envmap is all the light from far away: no constant and no sun beside it");
-  }
-}
-
 }  // namespace plumbline::renderer

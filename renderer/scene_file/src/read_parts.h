@@ -46,8 +46,11 @@ inline constexpr Property<Kind::transform> kToWorld{"to_world", "identity"};
 /// @return why a film of that size is refused; empty if it is not
 std::string film_size_error(const FilmSize& size);
 
-/// An <emitter> of the scene, beside those that it has.
-void read_scene_emitter(const Element& element, SceneDescription& scene);
+/// A <shape> with what it holds.
+///
+/// @return its <ref> to a BSDF, which may stand before it: to be resolved when all is read
+std::optional<Element> read_shape(const Element& element, BsdfReader& bsdfs,
+                                  ShapeDescription& shape);
 
 /// The triangles of an obj file, moved to world space. What is wrong with it is the error of the
 /// shape's kFilename.
@@ -63,12 +66,9 @@ class BsdfReader {
   /// What shapes without a BSDF get: diffuse, reflectance 0.5.
   std::uint32_t fallback();
 
-  /// @param ref    a <ref>; in a shape it may stand before what it refers to, so this waits until
-  ///               all is read
-  /// @param id     its id
-  /// @param where  for the message: where it was looked for
-  /// @throws InputError if there is no BSDF with that id
-  std::uint32_t resolve(const Element& ref, const std::string& id, const char* where = "") const;
+  /// @param where  for the message: where the BSDF of a <ref> was looked for
+  /// @throws InputError if there is no BSDF with its id
+  std::uint32_t resolve(const Element& ref, const char* where = "") const;
 
   /// Reads <bsdf>s, and finds those that <ref>s name above them.
   /// @return their indices
@@ -85,27 +85,6 @@ class BsdfReader {
   std::vector<ReadBsdf> bsdfs_;
   std::map<std::string, std::uint32_t> by_id_;
   std::optional<std::uint32_t> fallback_;
-};
-
-/// Shapes as they come; their <ref>s are resolved at the end.
-class ShapeReader {
- public:
-  ShapeReader(std::vector<ShapeDescription>& shapes, BsdfReader& bsdfs)
-      : shapes_(shapes), bsdfs_(bsdfs) {}
-
-  void read(const Element& element);
-  void resolve_references();
-
- private:
-  struct Reference {
-    std::size_t shape;
-    Element element;
-    std::string id;
-  };
-
-  std::vector<ShapeDescription>& shapes_;
-  BsdfReader& bsdfs_;
-  std::vector<Reference> references_;
 };
 
 /// Largest coordinate and length [m]; 1/kMaxLength is the smallest length. Squares of both are

@@ -104,26 +104,19 @@ bool is_in_range(const Vec3d& point) {
          std::abs(point.z) <= kMaxLength;
 }
 
-void ShapeReader::read(const Element& element) {
+std::optional<Element> read_shape(const Element& element, BsdfReader& bsdfs,
+                                  ShapeDescription& shape) {
   const auto& type = kShapeTypes.of(element);
   const Object object(element, type);
-  ShapeDescription shape;
   shape.geometry = type.read(object);
   for (const Element& emitter : object[kEmitter]) kAreaEmitterTypes.read(emitter, shape);
-  if (object[kBsdf].empty()) {
-    shape.bsdf = bsdfs_.fallback();
-  } else if (const Element& bsdf = object[kBsdf].front(); bsdf.tag() == "bsdf") {
-    shape.bsdf = bsdfs_.read(bsdf);
-  } else {
-    references_.push_back({shapes_.size(), bsdf, bsdf.text("id")});
+  const std::vector<Element>& given = object[kBsdf];
+  if (!given.empty() && given.front().tag() == "ref") {
+    given.front().text("id");  // a parameter in it has to stand above it, like everywhere
+    return given.front();
   }
-  shapes_.push_back(std::move(shape));
-}
-
-void ShapeReader::resolve_references() {
-  for (const Reference& reference : references_) {
-    shapes_[reference.shape].bsdf = bsdfs_.resolve(reference.element, reference.id);
-  }
+  shape.bsdf = given.empty() ? bsdfs.fallback() : bsdfs.read(given.front());
+  return std::nullopt;
 }
 
 }  // namespace plumbline::renderer

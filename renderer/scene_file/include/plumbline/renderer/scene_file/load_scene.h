@@ -21,19 +21,21 @@ SceneDescription load_scene(const std::filesystem::path& file,
                             const std::map<std::string, std::string>& overrides = {},
                             std::optional<FilmSize> size = std::nullopt);
 
-/// The types that a scene file may name for an element: "sphere", "rectangle", … for "shape".
-/// Empty for an element that has no type.
-std::vector<std::string> supported_types(std::string_view tag);
-
-/// A property of such a type, as the tables of docs/scene_format.md have it.
+/// A property, as the tables of docs/scene_format.md have it.
 struct SupportedProperty {
-  std::string type, name;
+  std::string name;
   std::string kind;    ///< the element that gives it, "float or string"; "object" for a nested one
   std::string absent;  ///< the default, or "required"
   std::string range;   ///< "0 to 1"; empty where every value of the kind is taken
 };
 
-/// What the types of an element may be given, in the order of supported_types().
-std::vector<SupportedProperty> supported_properties(std::string_view tag);
+struct SupportedType {
+  std::string name;
+  std::vector<SupportedProperty> properties;
+};
+
+/// The types that a scene file may name for an element: "sphere", "rectangle", … for "shape".
+/// Empty for an element that has no type.
+std::vector<SupportedType> supported_types(std::string_view tag);
 
 }  // namespace plumbline::renderer
