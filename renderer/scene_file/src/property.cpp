@@ -36,11 +36,6 @@ const std::map<std::string, ConductorFresnel> kMetals = {
     {"Cu", {{0.200438f, 0.924033f, 1.10221f}, {3.91295f, 2.45285f, 2.14219f}}},
 };
 
-template <Kind K>
-Value value(ValueOf<K> v) {
-  return Value(std::in_place_index<static_cast<std::size_t>(K)>, std::move(v));
-}
-
 [[noreturn]] void fail(const Element& element, const std::string& message) {
   element.fail(fmt::format("{}: {}", element.label(), message));
 }
@@ -74,6 +69,12 @@ bool parse_boolean(const Element& element, const std::string& text) {
   return text == "true";
 }
 
+std::string parse_string(const Element&, const std::string& text) { return text; }
+
+ConductorFresnel parse_metal(const Element& element, const std::string& text) {
+  return look_up(kMetals, element, text);
+}
+
 /// A default, which stands at the object, is a name.
 double parse_index(const Element& element, const std::string& text) {
   return element.tag() == "float" ? parse_number(element, text)
@@ -85,50 +86,55 @@ std::filesystem::path parse_file(const Element& element, const std::string& text
   return element.file().path().parent_path() / text;
 }
 
+Affine identity(const Element&, const std::string&) { return {}; }
+
+std::vector<Element> no_objects(const Element&, const std::string&) { return {}; }
+
+using ParseText = Value(const Element& at, const std::string& text);
+
 /// What there is to know of a kind.
 struct KindRow {
   std::vector<std::string> tags;  ///< of the elements that give one
-
-  /// @param at  the property to blame, or the object where the text is a default
-  Value (*of_text)(const Element& at, const std::string& text);
+  ParseText* parse;               ///< its text, or a default: that one stands at the object
 };
 
-/// In the order of Kind.
-const std::array<KindRow, std::variant_size_v<Value>>& kinds() {
-  using E = const Element&;
-  using S = const std::string&;
-  static const std::array<KindRow, std::variant_size_v<Value>> rows{{
-      {{"float"}, [](E at, S text) { return value<Kind::number>(parse_number(at, text)); }},
-      {{"integer"}, [](E at, S text) { return value<Kind::integer>(parse_integer(at, text)); }},
-      {{"boolean"}, [](E at, S text) { return value<Kind::boolean>(parse_boolean(at, text)); }},
-      {{"string"}, [](E, S text) { return value<Kind::string>(text); }},
-      {{"rgb"}, [](E at, S text) { return value<Kind::rgb>(parse_rgb(at, text)); }},
-      {{"point"}, [](E at, S text) { return value<Kind::point>(parse_vector(at, text)); }},
-      {{"vector"}, [](E at, S text) { return value<Kind::vector>(parse_vector(at, text)); }},
-      {{"transform"}, [](E, S) { return value<Kind::transform>({}); }},
-      {{"float", "string"}, [](E at, S text) { return value<Kind::index>(parse_index(at, text)); }},
-      {{"string"}, [](E at, S text) { return value<Kind::metal>(look_up(kMetals, at, text)); }},
-      {{"string"}, [](E at, S text) { return value<Kind::file>(parse_file(at, text)); }},
-      {{}, [](E, S) { return value<Kind::nested>({}); }},
-  }};
-  return rows;
+template <Kind K, auto parse>
+Value parsed(const Element& at, const std::string& text) {
+  return Value(std::in_place_index<static_cast<std::size_t>(K)>, parse(at, text));
 }
 
-const KindRow& row_of(Kind kind) { return kinds().at(static_cast<std::size_t>(kind)); }
+const KindRow& row_of(Kind kind) {
+  static const std::map<Kind, KindRow> rows = {
+      {Kind::number, {{"float"}, parsed<Kind::number, parse_number>}},
+      {Kind::integer, {{"integer"}, parsed<Kind::integer, parse_integer>}},
+      {Kind::boolean, {{"boolean"}, parsed<Kind::boolean, parse_boolean>}},
+      {Kind::string, {{"string"}, parsed<Kind::string, parse_string>}},
+      {Kind::rgb, {{"rgb"}, parsed<Kind::rgb, parse_rgb>}},
+      {Kind::point, {{"point"}, parsed<Kind::point, parse_vector>}},
+      {Kind::vector, {{"vector"}, parsed<Kind::vector, parse_vector>}},
+      {Kind::transform, {{"transform"}, parsed<Kind::transform, identity>}},
+      {Kind::index, {{"float", "string"}, parsed<Kind::index, parse_index>}},
+      {Kind::metal, {{"string"}, parsed<Kind::metal, parse_metal>}},
+      {Kind::file, {{"string"}, parsed<Kind::file, parse_file>}},
+      {Kind::nested, {{}, parsed<Kind::nested, no_objects>}},
+  };
+  return rows.at(kind);
+}
 
+/// Points and vectors may have coordinates in place of a text.
 Value parse_element(Kind kind, const Element& element) {
   if (kind == Kind::transform) {
     element.allow_attributes({"name"});
-    return value<Kind::transform>(read_transform(element));
+    return read_transform(element);
   }
-  const bool has_coordinates = kind == Kind::point || kind == Kind::vector;
-  element.allow_attributes(has_coordinates
-                               ? std::vector<std::string>{"name", "x", "y", "z", "value"}
-                               : std::vector<std::string>{"name", "value"});
   element.allow_no_children();
-  if (kind == Kind::point) return value<Kind::point>(parse_xyz(element, 0));
-  if (kind == Kind::vector) return value<Kind::vector>(parse_xyz(element, 0));
-  return row_of(kind).of_text(element, element.text("value"));
+  if (kind != Kind::point && kind != Kind::vector) {
+    element.allow_attributes({"name", "value"});
+    return row_of(kind).parse(element, element.text("value"));
+  }
+  element.allow_attributes({"name", "x", "y", "z", "value"});
+  constexpr auto xyz = [](const Element& at, const std::string&) { return parse_xyz(at, 0); };
+  return (kind == Kind::point ? parsed<Kind::point, xyz> : parsed<Kind::vector, xyz>)(element, {});
 }
 
 /// What of a value has to lie between the bounds.
@@ -189,7 +195,7 @@ Value parse_property(const PropertyRow& row, const Element& element) {
 }
 
 Value absent_property(const PropertyRow& row, const Element& object) {
-  return row_of(row.kind).of_text(object, row.absent);
+  return row_of(row.kind).parse(object, row.absent);
 }
 
 }  // namespace plumbline::renderer

@@ -91,28 +91,21 @@ void SceneFile::parse() {
   }
 }
 
-/// Visits every node without recursion, so that depth costs no stack.
-void SceneFile::check_structure() const {
-  int depth = 0;
-  int elements_at_top = 0;
-  pugi::xml_node node = document_.first_child();
-  while (node) {
-    check_node(node, depth);
-    if (depth == 0 && ++elements_at_top > 1) {
-      fail(static_cast<std::size_t>(node.offset_debug()), "a file holds one <scene> only");
+void SceneFile::check_structure() {
+  struct Walker : pugi::xml_tree_walker {  // goes without recursion: depth costs no stack
+    explicit Walker(const SceneFile& its_file) : file(its_file) {}
+    bool for_each(pugi::xml_node& node) override {
+      file.check_node(node, depth());
+      if (depth() == 0 && ++elements_at_top > 1) {
+        file.fail(static_cast<std::size_t>(node.offset_debug()), "a file holds one <scene> only");
+      }
+      return true;
     }
-    if (node.first_child()) {
-      node = node.first_child();
-      ++depth;
-      continue;
-    }
-    while (depth > 0 && !node.next_sibling()) {
-      node = node.parent();
-      --depth;
-    }
-    node = node.next_sibling();
-  }
-  if (elements_at_top == 0) fail(0, "holds no XML element; a <scene> was expected");
+    const SceneFile& file;
+    int elements_at_top = 0;
+  } walker(*this);
+  document_.traverse(walker);
+  if (walker.elements_at_top == 0) fail(0, "holds no XML element; a <scene> was expected");
 }
 
 void SceneFile::check_node(pugi::xml_node node, int depth) const {

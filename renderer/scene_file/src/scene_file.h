@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <initializer_list>
 #include <map>
 #include <pugixml.hpp>
 #include <string>
@@ -41,7 +40,7 @@ class Element {
   /// As a person would look for it: `<float name="radius">`, `<shape type="sphere">`, `<film>`.
   std::string label() const;
 
-  /// Position in the file, in bytes.
+  /// In the file [bytes].
   std::size_t offset() const { return static_cast<std::size_t>(node_.offset_debug()); }
 
   /// @throws InputError "file:line: message"
@@ -80,7 +79,7 @@ class SceneFile {
 
  private:
   void parse();
-  void check_structure() const;
+  void check_structure();
   void check_node(pugi::xml_node node, int depth) const;
 
   std::filesystem::path path_;
