@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/scene_file/nearest_name.h>
 
+#include "named.h"
 #include "read_parts.h"
 #include "text_file.h"
 
@@ -62,18 +62,13 @@ class SceneReader {
   }
 
   void read_child(const Element& element) {
-    static const std::vector<std::pair<std::string, void (SceneReader::*)(const Element&)>> kinds =
-        {{"default", &SceneReader::read_default}, {"integrator", &SceneReader::read_integrator},
-         {"sensor", &SceneReader::read_sensor},   {"bsdf", &SceneReader::read_bsdf},
-         {"shape", &SceneReader::read_shape},     {"emitter", &SceneReader::read_emitter}};
+    static const Named<void (SceneReader::*)(const Element&)> kinds = {
+        {"default", &SceneReader::read_default}, {"integrator", &SceneReader::read_integrator},
+        {"sensor", &SceneReader::read_sensor},   {"bsdf", &SceneReader::read_bsdf},
+        {"shape", &SceneReader::read_shape},     {"emitter", &SceneReader::read_emitter}};
     const std::string tag = element.tag();
-    std::vector<std::string> tags;
-    for (const auto& [name, read] : kinds) {
-      if (name == tag) return (this->*read)(element);
-      tags.push_back(name);
-    }
-    element.fail(
-        fmt::format("<scene> may not hold <{}>; {}", tag.substr(0, 60), name_hint(tag, tags)));
+    if (const auto* read = kinds.find(tag)) return (this->**read)(element);
+    element.fail(fmt::format("<scene> may not hold <{}>; {}", tag.substr(0, 60), kinds.hint(tag)));
   }
 
   void read_default(const Element& element) {

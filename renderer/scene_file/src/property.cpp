@@ -6,8 +6,7 @@
 #include <map>
 #include <utility>
 
-#include <plumbline/renderer/scene_file/nearest_name.h>
-
+#include "named.h"
 #include "text_file.h"
 #include "values.h"
 
@@ -15,7 +14,7 @@ namespace plumbline::renderer {
 namespace {
 
 /// What an index may be named, with the values of the table in Mitsuba 3's ior.h.
-const std::map<std::string, double> kRefractiveIndices = {
+const Named<double> kRefractiveIndices = {
     {"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
     {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},
     {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
@@ -27,24 +26,17 @@ const std::map<std::string, double> kRefractiveIndices = {
 };
 
 /// The spectra of Mitsuba's data files as linear RGB, relative to air.
-const std::map<std::string, ConductorFresnel> kMetals = {
-    {"none", {}},
+const Named<ConductorFresnel> kMetals = {
     {"Ag", {{0.155265f, 0.116723f, 0.138381f}, {4.82834f, 3.12225f, 2.14695f}}},
     {"Al", {{1.65746f, 0.880369f, 0.521229f}, {9.22387f, 6.26952f, 4.83700f}}},
     {"Au", {{0.143119f, 0.374957f, 1.44248f}, {3.98316f, 2.38572f, 1.60322f}}},
     {"Cr", {{4.36968f, 2.91670f, 1.65470f}, {5.20643f, 4.23136f, 3.75495f}}},
     {"Cu", {{0.200438f, 0.924033f, 1.10221f}, {3.91295f, 2.45285f, 2.14219f}}},
+    {"none", {}},
 };
 
 [[noreturn]] void fail(const Element& element, const std::string& message) {
   element.fail(fmt::format("{}: {}", element.label(), message));
-}
-
-template <class T>
-std::vector<std::string> names_of(const std::map<std::string, T>& table) {
-  std::vector<std::string> names;
-  for (const auto& [name, unused] : table) names.push_back(name);
-  return names;
 }
 
 std::vector<std::string> names_of(const Range& range) {
@@ -52,14 +44,9 @@ std::vector<std::string> names_of(const Range& range) {
 }
 
 template <class T>
-const T& look_up(const std::map<std::string, T>& table, const Element& element,
-                 const std::string& name) {
-  const auto found = table.find(name);
-  if (found == table.end()) {
-    fail(element,
-         fmt::format("{} is not known; {}", in_quotes(name), name_hint(name, names_of(table))));
-  }
-  return found->second;
+const T& look_up(const Named<T>& table, const Element& element, const std::string& name) {
+  if (const T* found = table.find(name)) return *found;
+  fail(element, fmt::format("{} is not known; {}", in_quotes(name), table.hint(name)));
 }
 
 bool parse_boolean(const Element& element, const std::string& text) {
@@ -178,7 +165,7 @@ std::vector<std::string> PropertyRow::tags() const {
 }
 
 std::string PropertyRow::range_text() const {
-  const std::vector<std::string> names = kind == Kind::metal ? names_of(kMetals) : names_of(range);
+  const std::vector<std::string> names = kind == Kind::metal ? kMetals.names() : names_of(range);
   if (!names.empty()) return fmt::format("{}", fmt::join(names, ", "));
   if (range.low == -Range{}.high) return {};
   if (range.high == Range{}.high) {

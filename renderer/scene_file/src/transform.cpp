@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/scene_file/nearest_name.h>
-
-#include "text_file.h"
+#include "named.h"
 #include "values.h"
 
 namespace plumbline::renderer {
@@ -81,15 +79,16 @@ Affine read_lookat(const Element& element) {
 }
 
 Affine read_operation(const Element& element) {
+  static const Named<Affine (*)(const Element&)> operations = {{"translate", read_translate},
+                                                               {"rotate", read_rotate},
+                                                               {"scale", read_scale},
+                                                               {"matrix", read_matrix},
+                                                               {"lookat", read_lookat}};
   element.allow_no_children();
   const std::string tag = element.tag();
-  if (tag == "translate") return read_translate(element);
-  if (tag == "rotate") return read_rotate(element);
-  if (tag == "scale") return read_scale(element);
-  if (tag == "matrix") return read_matrix(element);
-  if (tag == "lookat") return read_lookat(element);
+  if (const auto* read = operations.find(tag)) return (*read)(element);
   element.fail(fmt::format("<{}> is not a transform operation; {}", tag.substr(0, 60),
-                           name_hint(tag, {"translate", "rotate", "scale", "matrix", "lookat"})));
+                           operations.hint(tag)));
 }
 
 }  // namespace
