@@ -196,6 +196,7 @@ T BsdfRef::pdf_lobe(const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) co
   });
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type cannot stand in parentheses
 /// Every member for one scalar, as `extern template` declares it and `template` compiles it.
 #define PLUMBLINE_BSDF_REF(KEYWORDS, T)                                                        \
   KEYWORDS Rgb<T> BsdfRef::eval(const Vec3<T>&, const Vec3<T>&) const;                         \
@@ -206,6 +207,7 @@ T BsdfRef::pdf_lobe(const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) co
   KEYWORDS std::optional<BsdfSample<T>> BsdfRef::sample_lobe(const Vec3<T>&, std::uint32_t,    \
                                                              const Vec2<T>&) const;            \
   KEYWORDS T BsdfRef::pdf_lobe(const Vec3<T>&, const Vec3<T>&, std::uint32_t) const;
+// NOLINTEND(bugprone-macro-parentheses)
 
 // Compiled once, in bsdf.cpp: every type for a scalar costs seconds.
 PLUMBLINE_BSDF_REF(extern template, float)
