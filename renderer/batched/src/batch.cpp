@@ -210,12 +210,11 @@ class Batch final : public PixelSampler {
       const std::uint32_t light = light_at_end(k);
       if (light == kNoLight) continue;
       const Vec3f direction = s_.next.direction[i];
-      Rgbf radiance = renderer::radiance(scene_.lights()[light], direction);
-      if (depth > 1) {
-        const Arrival arrival{techniques_, s_.pdf_w[i], s_.atom_mass[i] > 0, s_.position[i]};
-        radiance = radiance * emission_weight(options_, scene_.lights(), arrival, light, direction);
-      }
-      radiance_[s_.path[i]] += s_.throughput[i] * radiance;
+      const Arrival arrival{techniques_, s_.pdf_w[i], s_.atom_mass[i] > 0, s_.position[i]};
+      radiance_[s_.path[i]] +=
+          s_.throughput[i] * weighted_emission(options_, scene_.lights(),
+                                               emission_of(scene_, light, direction), direction,
+                                               depth > 1 ? &arrival : nullptr);
     }
   }
 

@@ -77,13 +77,10 @@ class Path {
   }
 
  private:
-  /// Emission found by a ray, weighted against the light sample that could have found it.
   Rgbf emission(const std::optional<SurfaceHit>& hit, const Vec3f& direction,
                 const std::optional<Arrival>& arrival) const {
-    const Emission seen = emission_seen(scene_, hit, direction);
-    if (seen.light == kNoLight || !arrival) return seen.radiance;
-    return seen.radiance *
-           emission_weight(options_, scene_.lights(), *arrival, seen.light, direction);
+    return weighted_emission(options_, scene_.lights(), emission_seen(scene_, hit, direction),
+                             direction, arrival ? &*arrival : nullptr);
   }
 
   /// Emission found in a direction from a vertex.

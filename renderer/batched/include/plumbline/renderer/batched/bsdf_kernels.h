@@ -69,7 +69,8 @@ PLUMBLINE_KERNEL void evaluate_run(const B& shared, Shading& s, Run run) {
                 s, run);
 }
 
-/// sample_each of a BSDF that nests no others, all in one loop.
+/// sample_each of a BSDF that nests no others, all in one loop: written out, because g++ 12 does
+/// not vectorise it for a Lambertian through a lambda.
 template <class B>
 PLUMBLINE_KERNEL void sample_run(const B& shared, Shading& s, Run run) {
   const Local<B> bsdf = shared;

@@ -36,11 +36,14 @@ struct Emission {
   Rgbf radiance;  ///< [W/(m² sr)]
 };
 
-inline Emission emission_seen(const Scene& scene, const std::optional<SurfaceHit>& hit,
-                              const Vec3f& direction) {
-  const std::uint32_t light = hit ? hit->light : scene.environment();
+inline Emission emission_of(const Scene& scene, std::uint32_t light, const Vec3f& direction) {
   if (light == kNoLight) return {};
   return {light, radiance(scene.lights()[light], direction)};
+}
+
+inline Emission emission_seen(const Scene& scene, const std::optional<SurfaceHit>& hit,
+                              const Vec3f& direction) {
+  return emission_of(scene, hit ? hit->light : scene.environment(), direction);
 }
 
 /// A point on a light that a vertex sees, and what its MIS weight depends on.
@@ -135,6 +138,17 @@ inline float emission_weight(const PathOptions& options, const LightSet& lights,
   if (t.draw_bsdf == 0) return 0;
   const float pdf_light = t.n_light > 0 ? lights.pdf_at_hit(light, arrival.ref, direction) : 0.0f;
   return sample_weight(options, t.n_bsdf, arrival.pdf_w, t.n_light, pdf_light, false);
+}
+
+/// What emission at the end of a ray adds, weighted against the light sample that could have found
+/// it.
+///
+/// @param arrival  nullptr for a camera ray: its emission counts fully
+inline Rgbf weighted_emission(const PathOptions& options, const LightSet& lights,
+                              const Emission& seen, const Vec3f& direction,
+                              const Arrival* arrival) {
+  if (seen.light == kNoLight || arrival == nullptr) return seen.radiance;
+  return seen.radiance * emission_weight(options, lights, *arrival, seen.light, direction);
 }
 
 /// Whether the continued path could find nothing that counts: emission at its next end only after
