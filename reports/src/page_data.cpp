@@ -153,15 +153,10 @@ Json bars_to_json(const std::vector<Bar>& bars) {
   return list;
 }
 
-Json causes_to_json(const std::vector<CausesRecord>& causes) {
+template <class Record>
+Json list_with_exact_seeds(const std::vector<Record>& records) {
   Json list = Json::array();
-  for (const CausesRecord& record : causes) list.push_back(with_exact_seed(record));
-  return list;
-}
-
-Json renders_to_json(const std::vector<RenderRecord>& renders) {
-  Json list = Json::array();
-  for (const RenderRecord& render : renders) list.push_back(with_exact_seed(render));
+  for (const Record& record : records) list.push_back(with_exact_seed(record));
   return list;
 }
 
@@ -189,11 +184,11 @@ std::string page_data(const PageInput& input) {
                      {"warnings", warnings_to_json(results.warnings)},
                      {"checks", checks_to_json(results.checks)},
                      {"images", std::move(images)},
-                     {"renders", renders_to_json(results.renders)},
+                     {"renders", list_with_exact_seeds(results.renders)},
                      {"speed", speed_to_json(results.speed)},
                      {"ray_costs", list_to_json(results.ray_costs)},
                      {"bars", bars_to_json(results.bars)},
-                     {"causes", causes_to_json(results.causes)},
+                     {"causes", list_with_exact_seeds(results.causes)},
                      {"stability", list_to_json(results.stability)},
                      {"figures", list_to_json(results.figures)},
                      {"tables", list_to_json(results.tables)}};
