@@ -23,6 +23,7 @@ constexpr Property<Kind::boolean> kCompensation{"mis_compensation", "false"};
 constexpr Property<Kind::point> kPosition{"position", "0", between(-kMaxLength, kMaxLength)};
 constexpr Property<Kind::rgb> kIntensity{"intensity", kRequired, between(0, kMaxRadiance)};
 constexpr Property<Kind::vector> kDirection{"direction", kRequired};
+// The default is that of the disk of the sun as seen from the earth.
 constexpr Property<Kind::number> kHalfAngle{"half_angle", "0.2665", between(1e-3, 90, " degrees")};
 
 /// Refuses a second emitter of a type that a scene has once.

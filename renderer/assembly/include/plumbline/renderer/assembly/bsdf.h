@@ -89,8 +89,6 @@ class BsdfRef {
   T pdf_lobe(const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) const;
 
  private:
-  friend class BsdfSet;
-
   /// function(bsdf), or function(bsdf, set) for a nested one.
   template <class Result, class Function>
   Result call(const Function& function) const;

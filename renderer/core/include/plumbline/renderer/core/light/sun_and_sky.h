@@ -16,9 +16,6 @@ struct SunAndSky {
   float one_minus_cos_angle;  ///< 1 − cos of the sun's half angle, in (0, 1]
   Rgbf sun, sky;              ///< [W/(m² sr)]
 
-  /// Of the disk of the sun as seen from the earth [degrees].
-  static constexpr double kSunHalfAngle = 0.2665;
-
   /// @param half_angle  of the sun [rad], in (0, π/2]
   static SunAndSky make(const Vec3f& direction, double half_angle, const Rgbf& sun,
                         const Rgbf& sky) {
