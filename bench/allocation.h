@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/core/scene/description.h>
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/reports/results.h>
 #include "allocation_bias.h"
 #include "allocation_reference.h"

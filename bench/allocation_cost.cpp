@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/renderer/assembly/direct.h>
 #include <plumbline/renderer/assembly/render.h>
-#include <plumbline/renderer/core/render/direct.h>
 #include "allocation.h"
 #include "clock.h"
 
@@ -53,7 +53,7 @@ Timing time_of_policy(const renderer::Scene& scene, renderer::Allocation policy,
 renderer::Scene load_to_time(const AllocationScene& scene, AllocationWork work) {
   work.width = work.cost_width;
   work.height = work.cost_height;
-  return renderer::Scene(load(scene, work));
+  return renderer::make_scene(load(scene, work));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
-#include <plumbline/renderer/core/render/direct.h>
+#include <plumbline/renderer/assembly/direct.h>
 
 namespace plumbline::bench {
 namespace {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/reports/render_record.h>
@@ -136,7 +137,7 @@ class Experiment {
              std::filesystem::path maps)
       : description_(scene),
         work_(work),
-        scene_(load(scene, work)),
+        scene_(make_scene(load(scene, work))),
         cost_ratio_(cost_ratio),
         maps_(std::move(maps)) {
     const Reference pilot = measure_integrals(scene_, work.reference_samples, kPilotSeed);

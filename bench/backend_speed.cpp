@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include "clock.h"
 #include "publish.h"
@@ -28,7 +29,7 @@ struct Comparison {
 
 Comparison compare(const NamedScene& named, const Work& work) {
   const auto description = load_at_size(named.name, work.side, work.side);
-  const renderer::Scene scene(description);
+  const renderer::Scene scene = renderer::make_scene(description);
   renderer::RenderOptions options;
   options.path.max_depth = description.integrator.max_depth;
   options.path.rr_depth = description.integrator.rr_depth;

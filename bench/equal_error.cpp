@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include "publish.h"
 #include "scenes.h"
@@ -71,7 +72,7 @@ void measure(const Comparison& comparison, reports::ResultLog& log, bool full) {
   const int shrink = full ? 1 : 4;
   const auto description =
       load_at_size(comparison.scene, comparison.width / shrink, comparison.height / shrink);
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   const renderer::PathOptions path{.max_depth = description.integrator.max_depth,
                                    .rr_depth = description.integrator.rr_depth};
   const Reference reference = render_reference(scene, path);

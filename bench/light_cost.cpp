@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include "clock.h"
 #include "publish.h"
@@ -33,7 +34,7 @@ double rays_per_path(const renderer::PathCounters& c) {
 
 std::vector<std::string> measure(const NamedScene& lit, std::uint32_t samples, int repetitions) {
   const auto description = load_at_size(lit.name, 96, 96);
-  const renderer::Scene scene(description);
+  const renderer::Scene scene = renderer::make_scene(description);
   Side with, without;
   with.options.path = {.strategy = renderer::Strategy::mis,
                        .max_depth = description.integrator.max_depth,

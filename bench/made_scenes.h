@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <plumbline/renderer/core/scene/description.h>
+#include <plumbline/renderer/assembly/description.h>
 
 /// Scenes that no file holds: as large as one asks for.
 namespace plumbline::bench {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/core/scene/geometry.h>
 #include "backend_speed.h"
@@ -41,7 +42,7 @@ struct Shares {
 
 Shares measure(const ReplayedScene& replayed, int repetitions) {
   const auto description = load_at_size(replayed.name, replayed.width, replayed.height);
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   renderer::RenderOptions options;
   options.path.max_depth = description.integrator.max_depth;
   options.path.rr_depth = description.integrator.rr_depth;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/reports/power_fit.h>
 #include "publish.h"
@@ -109,7 +110,7 @@ void measure_axis(const Axis& axis, const std::vector<std::uint64_t>& values, do
 
 /// Speed of two threads over that of one, wall clock, in turn.
 void measure_threads(reports::ResultLog& log, bool full) {
-  const renderer::Scene scene(load_at_size("cornell", 256, 256));
+  const renderer::Scene scene = renderer::make_scene(load_at_size("cornell", 256, 256));
   renderer::RenderOptions options;
   options.path.max_depth = 7;
   options.sampler = renderer::SamplerType::sobol;

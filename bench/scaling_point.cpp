@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include "clock.h"
 #include "made_scenes.h"
@@ -102,7 +103,7 @@ void measure_scaling_point(const std::string& point) {
   if (equals == std::string::npos) throw std::invalid_argument("a point is axis=value");
   Work work = work_at(point.substr(0, equals), std::stoull(point.substr(equals + 1)));
   const Clock::time_point start = Clock::now();
-  const renderer::Scene scene(work.scene);
+  const renderer::Scene scene = renderer::make_scene(work.scene);
   const double build = since(start);
   work.scene = {};
   std::vector<double> seconds;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <plumbline/analytic/known_scene.h>
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
@@ -40,7 +41,7 @@ std::vector<double> reference_luminance(const std::string& name,
   options.samples_per_pixel = reference_spp;
   options.seed = 0x5eed;  // no replicate has it
   options.sampler = renderer::SamplerType::sobol;
-  const renderer::RenderResult result = render(renderer::Scene(description), options);
+  const renderer::RenderResult result = render(renderer::make_scene(description), options);
   return luminances(result.film);
 }
 

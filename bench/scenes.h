@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/render/film.h>
-#include <plumbline/renderer/core/scene/description.h>
 
 namespace plumbline::bench {
 

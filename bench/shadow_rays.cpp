@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/sampling/pcg32.h>
 #include <plumbline/renderer/core/scene/geometry.h>
 #include <plumbline/renderer/core/scene/scene.h>
@@ -111,7 +112,7 @@ const char* judge_claim(const reports::RayCost& cost) {
 /// @return of the rays as rendered, by width
 std::vector<reports::RayCost> measure_scene(const NamedScene& named, reports::ResultLog& log,
                                             int repetitions) {
-  const Scene scene(load_at_size(named.name, 128, 128));
+  const Scene scene = make_scene(load_at_size(named.name, 128, 128));
   const std::vector<Ray> all = record_shadow_rays(scene);
   std::vector<Ray> reaching, blocked;
   for (const Ray& ray : all) (scene.occluded(ray) ? blocked : reaching).push_back(ray);

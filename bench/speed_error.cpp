@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
 #include "clock.h"
 #include "scenes.h"
@@ -118,7 +120,7 @@ std::vector<Curve> curves_of(const renderer::SceneDescription& description) {
 /// One thread per core, each with curves of its own: their times are CPU times.
 void measure_scene(const std::string& name, const Work& work, reports::ResultLog& log) {
   const auto description = load_at_size(name, work.width, work.height);
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   const auto reference = reference_luminance(name, description, work.reference_samples);
   std::vector<Curve> curves = curves_of(description);
   std::atomic<std::size_t> next = 0;

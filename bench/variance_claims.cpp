@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
 #include "scenes.h"
@@ -76,7 +77,7 @@ void judge(Replicates& replicates, const std::vector<double>& reference) {
 
 SceneRuns measure_scene(const ClaimScene& claim, const Work& work) {
   const auto description = load(claim, work);
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   std::array<Replicates, kClaimStrategies.size()> all;
   // The strategies take turns, so that a change of clock hits all of them.
   for (std::uint64_t replicate = 0; replicate < work.replicates; ++replicate) {

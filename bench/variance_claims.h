@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/core/render/strategy.h>
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/reports/results.h>
 #include "statistics.h"
 

@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include <plumbline/calibration/experiments.h>
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/scene/description.h>
 #include <plumbline/reports/results.h>
 
 #include "command.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
-#include <plumbline/renderer/core/render/strategy.h>
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/estimators/allocation.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/scene/description.h>
 #include <plumbline/renderer/scene_file/nearest_name.h>
 
 #include "command.h"

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <system_error>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/scene/description.h>
 #include <plumbline/renderer/image_io/exr.h>
 
 namespace plumbline::tools {

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
@@ -216,7 +218,7 @@ int run_render(const RenderArguments& arguments) {
       load_scene(scene_path(arguments.scene), parse_definitions(arguments.definitions),
                  parse_size(arguments.size));
   description.light_selection = arguments.light_selection;
-  const renderer::Scene scene(description);
+  const renderer::Scene scene = renderer::make_scene(description);
   renderer::RenderOptions options = render_options(arguments, description);
   print_found(arguments, description, scene, options);
   Progress progress(arguments.seconds, options.samples_per_pixel < kMaxSamples);

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/from_name.h>
 #include <plumbline/renderer/core/render/path.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
 

@@ -8,8 +8,8 @@
 #include <system_error>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/scene/description.h>
 #include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/reports/page.h>
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <system_error>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/scene/description.h>
 #include <plumbline/renderer/scene_file/nearest_name.h>
 
 namespace plumbline::tools {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/core/sampling/pcg32.h>
 #include <plumbline/verify/autodiff.h>
 #include <plumbline/verify/mean.h>

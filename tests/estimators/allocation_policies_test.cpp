@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include <plumbline/renderer/core/from_name.h>
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/estimators/allocation.h>
 #include <plumbline/verify/detail/random.h>
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <plumbline/renderer/core/mis/heuristics.h>
+#include <plumbline/renderer/estimators/mis_weights.h>
 
 namespace plumbline::tests {
 namespace {

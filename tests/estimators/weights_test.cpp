@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <plumbline/analytic/estimator_moments.h>
-#include <plumbline/renderer/core/mis/heuristics.h>
+#include <plumbline/renderer/estimators/mis_weights.h>
 
 namespace plumbline::tests {
 namespace {

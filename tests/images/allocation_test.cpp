@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
@@ -38,7 +39,7 @@ renderer::RenderOptions allocated(Allocation policy, std::uint64_t seed) {
 class AllocatedImage : public testing::TestWithParam<Allocation> {};
 
 TEST_P(AllocatedImage, MeanIsTheClosedFormForEveryPolicy) {
-  const Scene scene(small_scene("sphere_light"));
+  const Scene scene = make_scene(small_scene("sphere_light"));
   verify::MeanOptions options;
   options.subject = "sphere_light/allocation ";
   options.subject.append(name(GetParam()));
@@ -63,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Policies, AllocatedImage, testing::ValuesIn(renderer::k
                          });
 
 TEST(AllocatedImageControl, AnswerOffByOnePercentFails) {
-  const Scene scene(small_scene("sphere_light"));
+  const Scene scene = make_scene(small_scene("sphere_light"));
   verify::MeanOptions options;
   options.subject = "control/sphere_light, allocation root-v2, answer off by 1 %";
   options.reference = 1.01 * make_oracle(analytic::known_scene("sphere_light"))->image_mean().value;
@@ -81,7 +82,7 @@ TEST(AllocatedImageControl, AnswerOffByOnePercentFails) {
 }
 
 TEST(AllocatedRender, IsTheSameForAnyNumberOfThreads) {
-  const Scene scene(small_scene("sphere_light"));
+  const Scene scene = make_scene(small_scene("sphere_light"));
   auto options = allocated(Allocation::root_nodes, 7);
   options.threads = 1;
   const renderer::RenderResult one = render(scene, options);
@@ -95,7 +96,7 @@ TEST(AllocatedRender, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(AllocatedRender, NotesTheCountsDrawnInEveryIteration) {
-  const Scene scene(small_scene("sphere_light"));
+  const Scene scene = make_scene(small_scene("sphere_light"));
   const auto options = allocated(Allocation::root_v2, 7);
   const renderer::RenderResult result = render(scene, options);
   const std::size_t pixels = result.film.pixels().size();
@@ -117,13 +118,13 @@ TEST(AllocatedRender, SmallLightGetsTheLightSamples) {
   description.camera.height = 6;
   auto options = allocated(Allocation::root_nodes, 7);
   options.samples_per_pixel = 400;
-  for (const float share : final_shares(render(Scene(description), options), 4)) {
+  for (const float share : final_shares(render(make_scene(description), options), 4)) {
     EXPECT_EQ(share, 0.1f);
   }
 }
 
 TEST(AllocatedRender, RefusesWhatDoesNotFit) {
-  const Scene scene(small_scene("sphere_light"));
+  const Scene scene = make_scene(small_scene("sphere_light"));
   const auto refused = [&](const auto& change) {
     auto options = allocated(Allocation::equal, 0);
     change(options);

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
+#include <plumbline/renderer/assembly/description.h>
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
@@ -93,7 +95,7 @@ class LoadedScene {
     const auto key = std::pair(way.selection, way.by_solid_angle);
     auto found = scenes_.find(key);
     if (found == scenes_.end()) {
-      found = scenes_.try_emplace(key, way.description(description_)).first;
+      found = scenes_.try_emplace(key, renderer::make_scene(way.description(description_))).first;
     }
     return found->second;
   }

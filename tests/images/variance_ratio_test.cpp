@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline/verify/ratio.h>
@@ -28,7 +30,7 @@ class BenchScene {
       : name_(name),
         description_(
             renderer::load_scene(std::filesystem::path(PLUMBLINE_BENCH_SCENES) / (name + ".xml"))),
-        scene_(description_) {}
+        scene_(renderer::make_scene(description_)) {}
 
   verify::MomentSampler samples(Strategy strategy, std::uint64_t seed) const {
     return path_samples(scene_,

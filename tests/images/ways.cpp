@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <variant>
 
+#include <plumbline/renderer/assembly/names.h>
+
 namespace plumbline::tests {
 namespace {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/render/path.h>
-#include <plumbline/renderer/core/scene/description.h>
 
 namespace plumbline::tests {
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
 #include <plumbline/verify/image.h>
@@ -26,7 +27,7 @@ renderer::Film render_scene(const std::string& scene_name, std::uint32_t samples
   options.path.rr_depth = description.integrator.rr_depth;
   options.samples_per_pixel = samples;
   options.seed = seed;
-  return render(renderer::Scene(description), options).film;
+  return render(renderer::make_scene(description), options).film;
 }
 
 /// The scenes are grey: one channel says it all.

@@ -5,8 +5,9 @@
 #include <filesystem>
 #include <string>
 
+#include <plumbline/renderer/assembly/description.h>
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
-#include <plumbline/renderer/core/from_name.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
 #include "scenes.h"
 
@@ -70,7 +71,7 @@ void expect_equal_to_rounding(const Pair& pair, double tolerance) {
 template <class Check>
 void for_each_way(const std::string& file, const Check& check) {
   const SceneDescription description = small(file);
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   for (const Strategy strategy : {Strategy::bsdf, Strategy::light, Strategy::mis}) {
     for (const SamplerType sampler : kSamplers) {
       SCOPED_TRACE(file + ", " + std::string(name(strategy)) + ", " + std::string(name(sampler)));
@@ -119,7 +120,7 @@ TEST(Backends, GiveTheSameBitsOnAMeshOfManyTriangles) {
   }
   description.shapes.push_back({hills, 0, std::nullopt});
   description.integrator.max_depth = 5;
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   const Pair pair =
       render_both(scene, options_of(description, Strategy::mis, SamplerType::independent));
   EXPECT_GT(pair.scalar.counters.bounce_rays, 1000u);
@@ -130,7 +131,7 @@ TEST(Backends, GiveTheSameBitsOfASkyAlone) {
   SceneDescription description = tests::empty_scene(20, 15);
   description.bsdfs = make_bsdfs({});
   description.environment = Rgbd{1, 2, 3};
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   const Pair pair = render_both(scene, options_of(description, Strategy::mis, SamplerType::sobol));
   EXPECT_EQ(differing_pixels(pair), 0u);
   EXPECT_EQ(pair.batched.film.at(3, 5).mean.b, 3);
@@ -151,7 +152,7 @@ TEST(Backends, AgreeToRoundingOnSpheres) {
 
 TEST(Backends, OtherStrategiesAreLeftToThePlainLoop) {
   const SceneDescription description = small("bench/scenes/cornell");
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   for (const Strategy strategy : {Strategy::uniform, Strategy::one_sample, Strategy::average}) {
     const RenderOptions options = options_of(description, strategy, SamplerType::independent);
     EXPECT_EQ(differing_pixels(render_both(scene, options)), 0u) << name(strategy);
@@ -163,7 +164,7 @@ TEST(Backends, OtherStrategiesAreLeftToThePlainLoop) {
 
 TEST(Backends, ACounterOfDifferencesSeesOtherRandomNumbers) {
   const SceneDescription description = small("bench/scenes/cornell");
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   RenderOptions options = options_of(description, Strategy::mis, SamplerType::independent);
   Pair pair = render_both(scene, options);
   options.seed = 1;
@@ -174,7 +175,7 @@ TEST(Backends, ACounterOfDifferencesSeesOtherRandomNumbers) {
 TEST(Backends, EveryNumberOfPathsFillsItsBatches) {
   // One path, one short of a batch, and passes that leave the last batch part full.
   const SceneDescription description = small("bench/scenes/cornell");
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   for (const std::uint32_t samples : {1u, 7u, 333u}) {
     RenderOptions options = options_of(description, Strategy::mis, SamplerType::sobol);
     options.samples_per_pixel = samples;

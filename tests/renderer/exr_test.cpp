@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/scene/description.h>
 
 namespace plumbline::renderer {
 namespace {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline/verify/ratio.h>
@@ -37,7 +39,7 @@ class NoisyImage {
   }
 
  private:
-  renderer::Scene scene_{closed_sphere(kWidth, kHeight)};
+  renderer::Scene scene_ = renderer::make_scene(closed_sphere(kWidth, kHeight));
 };
 
 /// Images with consecutive seeds, made when asked for.

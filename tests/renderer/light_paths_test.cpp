@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/core/render/path.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
@@ -48,7 +50,7 @@ double look_down(const Scene& scene, Strategy strategy, double x, double y,
 TEST(PointLightPaths, EverySampleIsTheClosedFormAndNothingElseTakesAShareOfIt) {
   SceneDescription description = floor_scene();
   description.points.push_back({{1, 2, 3}, {9, 9, 9}});
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   for (const auto& [x, y] : {std::pair(1.0, 2.0), std::pair(-2.0, 1.0), std::pair(20.0, 0.0)}) {
     // ρ/π I cosθ/d²
     const double d2 = (x - 1) * (x - 1) + (y - 2) * (y - 2) + 9;
@@ -69,7 +71,7 @@ TEST(PointLightPaths, AnythingBetweenCastsAShadow) {
   SceneDescription description = floor_scene();
   description.points.push_back({{0, 0, 3}, {9, 9, 9}});
   description.shapes.push_back({renderer::SphereShape{{0, 0, 2}, 0.5}, 0, std::nullopt});
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   renderer::Sampler random(renderer::SamplerType::independent, 1, 0, 0);
   EXPECT_EQ(look_down(scene, Strategy::light, 0, 0, random), 0);
   EXPECT_GT(look_down(scene, Strategy::light, 5, 0, random), 0);
@@ -99,7 +101,7 @@ TEST(SunAndSkyPaths, TheSidewalkHasItsClosedForm) {
   const double cos_zenith = 0.8, angle = 0.2665 * renderer::pi<double>() / 180;
   description.sun = renderer::SunDescription{{0.6, 0, cos_zenith}, angle, {2e4, 2e4, 2e4}};
   description.environment = Rgbd{1, 1, 1};
-  const Scene scene(description);
+  const Scene scene = make_scene(description);
   // ρ/π E with E = π L_sky + π sin²α cosθ L_sun: a cone above the horizon projects to an ellipse.
   const double reference = kAlbedo * (1 + std::sin(angle) * std::sin(angle) * cos_zenith * 2e4);
   for (const Strategy strategy : {Strategy::light, Strategy::mis, Strategy::one_sample}) {
@@ -147,7 +149,7 @@ Scene map_scene(bool compensation) {
                                    kMapWidth, kMapHeight, std::move(pixels), compensation),
                                {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}},
                                1};
-  return Scene(description);
+  return make_scene(description);
 }
 
 TEST(EnvironmentMapPaths, AFloorHasTheIrradianceOfTheHemisphere) {

@@ -1,3 +1,5 @@
+#include <plumbline/renderer/assembly/description.h>
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/core/errors.h>
 
@@ -25,7 +27,7 @@ bool same_bits(const Film& a, const Film& b) {
 }
 
 TEST(Render, TheImageDoesNotDependOnTheNumberOfThreads) {
-  const Scene scene(tests::closed_sphere(33, 17));
+  const Scene scene = make_scene(tests::closed_sphere(33, 17));
   for (const Strategy strategy : kStrategies) {
     for (const Backend backend : kBackends) {
       RenderOptions options = options_for(strategy);
@@ -43,7 +45,7 @@ TEST(Render, TheImageDoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Render, AnotherSeedGivesAnotherImage) {
-  const Scene scene(tests::closed_sphere(33, 17));
+  const Scene scene = make_scene(tests::closed_sphere(33, 17));
   RenderOptions options = options_for(Strategy::bsdf);
   const RenderResult one = render(scene, options);
   options.seed = 8;
@@ -51,7 +53,7 @@ TEST(Render, AnotherSeedGivesAnotherImage) {
 }
 
 TEST(Render, PassesUntilAnErrorIsReachedGiveTheBitsOfOnePass) {
-  const Scene scene(tests::closed_sphere(33, 17));
+  const Scene scene = make_scene(tests::closed_sphere(33, 17));
   RenderOptions options = options_for(Strategy::mis);
   options.samples_per_pixel = 1000;
   options.relative_error = 0.1;
@@ -66,7 +68,7 @@ TEST(Render, PassesUntilAnErrorIsReachedGiveTheBitsOfOnePass) {
 TEST(Render, DepthCountsAsInMitsuba) {
   // Le Σ ρ^k over k < depth, with Le = ρ = 1/2 exact in every sample: all vertices see the same
   // light.
-  const Scene scene(tests::closed_sphere(8, 8));
+  const Scene scene = make_scene(tests::closed_sphere(8, 8));
   double expected = 0;
   for (int depth = 0; depth <= 4; ++depth) {
     RenderOptions options = options_for(Strategy::bsdf);
@@ -77,7 +79,7 @@ TEST(Render, DepthCountsAsInMitsuba) {
 }
 
 TEST(Render, RaysAreCounted) {
-  const Scene scene(tests::closed_sphere(8, 8));
+  const Scene scene = make_scene(tests::closed_sphere(8, 8));
   RenderOptions options = options_for(Strategy::mis);
   options.path.max_depth = 2;
   const RenderResult result = render(scene, options);
@@ -87,7 +89,7 @@ TEST(Render, RaysAreCounted) {
 }
 
 TEST(Render, SobolSamplesAreDealtOutToReplicatesWhateverThePasses) {
-  const Scene scene(tests::closed_sphere(33, 17));
+  const Scene scene = make_scene(tests::closed_sphere(33, 17));
   RenderOptions options = options_for(Strategy::mis);
   options.sampler = SamplerType::sobol;
   options.replicates = 4;
@@ -104,7 +106,7 @@ TEST(Render, SobolSamplesAreDealtOutToReplicatesWhateverThePasses) {
 }
 
 TEST(Render, OneReplicateOfSobolPointsClaimsNoVariance) {
-  const Scene scene(tests::closed_sphere(8, 8));
+  const Scene scene = make_scene(tests::closed_sphere(8, 8));
   RenderOptions options = options_for(Strategy::light);
   options.sampler = SamplerType::sobol;
   const RenderResult result = render(scene, options);
@@ -115,14 +117,14 @@ TEST(Render, OneReplicateOfSobolPointsClaimsNoVariance) {
 }
 
 TEST(Render, UnlimitedDepthWithoutRouletteIsRefused) {
-  const Scene scene(tests::closed_sphere(8, 8));
+  const Scene scene = make_scene(tests::closed_sphere(8, 8));
   RenderOptions options = options_for(Strategy::bsdf);
   options.path.rr_depth = kNoRoulette;
   EXPECT_THROW(render(scene, options), InputError);
 }
 
 TEST(Render, ProgressReachesTheEnd) {
-  const Scene scene(tests::closed_sphere(64, 64));
+  const Scene scene = make_scene(tests::closed_sphere(64, 64));
   RenderOptions options = options_for(Strategy::bsdf);
   options.threads = 1;
   double last = 0;
@@ -137,8 +139,8 @@ TEST(Render, ProgressReachesTheEnd) {
 TEST(Render, SceneFarFromTheOriginGivesTheSameImage) {
   const Vec3d far{1e5, -1e5, 1e5};
   RenderOptions options = options_for(Strategy::mis);
-  const RenderResult near_result = render(Scene(tests::closed_sphere(16, 16)), options);
-  const RenderResult far_result = render(Scene(tests::closed_sphere(16, 16, far)), options);
+  const RenderResult near_result = render(make_scene(tests::closed_sphere(16, 16)), options);
+  const RenderResult far_result = render(make_scene(tests::closed_sphere(16, 16, far)), options);
   EXPECT_TRUE(same_bits(near_result.film, far_result.film));
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/renderer/assembly/names.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline/verify/pair.h>
 #include <plumbline/verify/ratio.h>

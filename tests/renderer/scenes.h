@@ -1,7 +1,7 @@
 #pragma once
 
 #include <plumbline/renderer/assembly/bsdf.h>
-#include <plumbline/renderer/core/scene/description.h>
+#include <plumbline/renderer/assembly/description.h>
 
 /// Small scenes made in code, for tests that need no file.
 namespace plumbline::tests {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/sampling/pcg32.h>
 #include <plumbline/renderer/core/scene/scene.h>
 #include "scenes.h"
@@ -53,7 +54,7 @@ TEST(SelfIntersection, SpheresOfManySizesSeenFromFar) {
       SceneDescription scene = tests::empty_scene(1, 1);
       scene.shapes.push_back({SphereShape{{0, 0, 0}, radius, false}, 0, {}});
       const auto r = static_cast<float>(radius);
-      expect_clean(start_rays(Scene(scene), distance * r,
+      expect_clean(start_rays(make_scene(scene), distance * r,
                               [r](Pcg32& random) { return random_direction(random) * (0.9f * r); }),
                    "sphere");
     }
@@ -66,7 +67,7 @@ TEST(SelfIntersection, SphereAwayFromTheCentreOfTheScene) {
   // A speck in the opposite corner keeps the scene's centre at 0; 5e-5 stray rays are expected to
   // hit it.
   scene.shapes.push_back({SphereShape{{-10.999, 10.999, -5.999}, 1e-3, false}, 0, {}});
-  expect_clean(start_rays(Scene(scene), 100.0f,
+  expect_clean(start_rays(make_scene(scene), 100.0f,
                           [](Pcg32& random) {
                             return Vec3f{10, -10, 5} + random_direction(random) * 0.9f;
                           }),
@@ -81,7 +82,7 @@ void expect_clean_flat(const Shape& shape, const char* what) {
   SceneDescription scene = tests::empty_scene(1, 1);
   scene.shapes.push_back({shape, 0, {}});
   for (const float distance : {2.0f, 1000.0f}) {
-    expect_clean(start_rays(Scene(scene), distance,
+    expect_clean(start_rays(make_scene(scene), distance,
                             [](Pcg32& random) {
                               const Vec2f u = random.next_2d();
                               return vec_cast<float>(kU) * (u.x - 0.5f) +
@@ -108,7 +109,7 @@ TEST(SelfIntersection, ThinGapUnderALargeFloorStaysClosed) {
     scene.shapes.push_back(
         {RectangleShape{{-5e3, height, -5e3}, {0, 0, 1e4}, {1e4, 0, 0}, false}, 0, {}});
   }
-  const Scene gap(scene);
+  const Scene gap = make_scene(scene);
   Pcg32 random(1, 0, 0);
   for (int i = 0; i < kStarts; ++i) {
     const Vec2f u = random.next_2d();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/scene/scene.h>
 #include <plumbline/renderer/image_io/exr.h>
 
@@ -32,7 +33,7 @@ TEST(Emitter, PointsAreReadAsOftenAsTheyCome) {
   EXPECT_EQ(scene.points[0].position.z, 3);
   EXPECT_EQ(scene.points[0].intensity, (Rgbd{1, 2, 3}));
   EXPECT_EQ(scene.points[1].position.x, 0);
-  EXPECT_EQ(renderer::Scene(scene).lights().size(), 2u);
+  EXPECT_EQ(renderer::make_scene(scene).lights().size(), 2u);
 }
 
 TEST(Emitter, SunShinesAlongItsDirectionOnTopOfTheSky) {
@@ -44,7 +45,7 @@ TEST(Emitter, SunShinesAlongItsDirectionOnTopOfTheSky) {
   EXPECT_NEAR(scene.sun->direction.y, -0.6, 1e-15);
   EXPECT_NEAR(scene.sun->direction.z, 0.8, 1e-15);
   EXPECT_NEAR(scene.sun->half_angle, 0.2665 * renderer::pi<double>() / 180, 1e-15);
-  const renderer::Scene built(scene);
+  const renderer::Scene built = renderer::make_scene(scene);
   ASSERT_EQ(built.lights().size(), 1u);
   const renderer::Light& light = built.lights()[built.environment()];
   EXPECT_EQ(radiance(light, Vec3f{0, -0.6f, 0.8f}), (Rgbf{1001, 1002, 1003}));
@@ -70,7 +71,7 @@ std::string envmap(const std::string& more = {}) {
 TEST(Emitter, EnvironmentMapStandsAsInMitsuba) {
   const ScratchDirectory directory;
   write_map(directory.path() / "map.exr");
-  const renderer::Scene scene(renderer::load_scene(
+  const renderer::Scene scene = renderer::make_scene(renderer::load_scene(
       directory.write("scene.xml", envmap(R"(<float name="scale" value="2"/>)"))));
   const renderer::Light& light = scene.lights()[scene.environment()];
   // +y is up; the left edge of the image is −z, a quarter to the right of it +x.
@@ -84,7 +85,8 @@ TEST(Emitter, EnvironmentMapStandsAsInMitsuba) {
 TEST(Emitter, EnvironmentMapTurnsWithItsTransform) {
   const ScratchDirectory directory;
   write_map(directory.path() / "map.exr");
-  const renderer::Scene scene(renderer::load_scene(directory.write("scene.xml", envmap(R"(
+  const renderer::Scene scene =
+      renderer::make_scene(renderer::load_scene(directory.write("scene.xml", envmap(R"(
       <transform name="to_world"><rotate x="1" angle="90"/></transform>)"))));
   const renderer::Light& light = scene.lights()[scene.environment()];
   // The turn takes +y to +z and −z to +y.
@@ -124,10 +126,10 @@ TEST(Emitter, ATwoSidedRectangleEmitsFromBothSidesAndOthersFromTheFront) {
                       two_sided + "\"/></emitter></shape>");
   };
   const renderer::Ray down{{0, 0, 5}, {0, 0, -1}}, up{{0, 0, -5}, {0, 0, 1}};
-  const renderer::Scene both(load_text(with("rectangle", "true")));
+  const renderer::Scene both = renderer::make_scene(load_text(with("rectangle", "true")));
   EXPECT_EQ(both.intersect(down).value().light, 0u);
   EXPECT_EQ(both.intersect(up).value().light, 0u);
-  const renderer::Scene front(load_text(with("rectangle", "false")));
+  const renderer::Scene front = renderer::make_scene(load_text(with("rectangle", "false")));
   EXPECT_EQ(front.intersect(down).value().light, 0u);
   EXPECT_EQ(front.intersect(up).value().light, renderer::kNoLight);
   EXPECT_NE(refusal_of_text(with("disk", "true")).find("only a rectangle can emit from both"),
@@ -140,9 +142,9 @@ TEST(Emitter, SamplingBySolidAngleIsForRectanglesAndMeshes) {
       <rgb name="radiance" value="1"/><string name="sampling" value=")" +
                       sampling + "\"/></emitter></shape>");
   };
-  const renderer::Scene scene(load_text(with("rectangle", "solid_angle")));
+  const renderer::Scene scene = renderer::make_scene(load_text(with("rectangle", "solid_angle")));
   EXPECT_TRUE(std::get<renderer::RectangleLight>(scene.lights()[0]).by_solid_angle);
-  const renderer::Scene by_area(load_text(with("rectangle", "area")));
+  const renderer::Scene by_area = renderer::make_scene(load_text(with("rectangle", "area")));
   EXPECT_FALSE(std::get<renderer::RectangleLight>(by_area.lights()[0]).by_solid_angle);
   EXPECT_NE(refusal_of_text(with("disk", "solid_angle")).find("only a rectangle or an obj"),
             std::string::npos);
@@ -162,7 +164,7 @@ TEST(Emitter, TrianglesOfAMeshAreChosenByAreaAndTheMeshLikeAnyOtherLight) {
   const auto pmf = [&](renderer::LightSelection selection, std::uint32_t light) {
     SceneDescription scene = description;
     scene.light_selection = selection;
-    return static_cast<double>(renderer::Scene(scene).lights().pmf<float>(light));
+    return static_cast<double>(renderer::make_scene(scene).lights().pmf<float>(light));
   };
   using renderer::LightSelection;
   // Areas 3/2, 3 and 4π.

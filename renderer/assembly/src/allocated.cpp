@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include <plumbline/renderer/assembly/direct.h>
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/render/direct.h>
 #include <plumbline/renderer/core/render/tiles.h>
 #include <plumbline/renderer/core/sampling/pcg32.h>
 

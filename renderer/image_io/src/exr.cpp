@@ -16,8 +16,6 @@
 #include <system_error>
 #include <utility>
 
-#include <plumbline/renderer/core/scene/description.h>
-
 namespace plumbline::renderer {
 namespace {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <plumbline/renderer/assembly/bsdf.h>
-#include <plumbline/renderer/core/scene/description.h>
+#include <plumbline/renderer/assembly/description.h>
 
 #include "object.h"
 #include "scene_file.h"

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/scene/description.h>
 
 namespace plumbline::renderer {
 namespace {

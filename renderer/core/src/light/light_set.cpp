@@ -84,18 +84,6 @@ std::vector<std::uint32_t> each_its_own(std::size_t count) {
 
 }  // namespace
 
-std::string_view name(LightSelection selection) {
-  switch (selection) {
-    case LightSelection::uniform:
-      return "uniform";
-    case LightSelection::area:
-      return "area";
-    case LightSelection::power:
-      return "power";
-  }
-  return "?";
-}
-
 LightSet::LightSet(std::vector<Light> lights, const std::vector<std::uint32_t>& groups,
                    LightSelection selection, double scene_radius)
     : lights_(std::move(lights)) {

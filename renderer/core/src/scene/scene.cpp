@@ -1,200 +1,20 @@
 #include <plumbline/renderer/core/scene/scene.h>
 
-#include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include <plumbline/renderer/core/scene/geometry.h>
 
 namespace plumbline::renderer {
-namespace {
 
-/// Axis-aligned bounds in double, grown point by point.
-struct Bounds {
-  Vec3d low{kInfinity, kInfinity, kInfinity};
-  Vec3d high{-kInfinity, -kInfinity, -kInfinity};
-
-  void add(const Vec3d& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-
-  void add(const Vec3d& center, double radius) {
-    add(center - Vec3d{radius, radius, radius});
-    add(center + Vec3d{radius, radius, radius});
-  }
-
-  bool empty() const { return !(low.x <= high.x); }
-  Vec3d center() const { return empty() ? Vec3d{} : (low + high) * 0.5; }
-  double radius() const { return empty() ? 0.0 : length(high - low) / 2; }
-
- private:
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-};
-
-Bounds bounds_of(const std::vector<ShapeDescription>& shapes) {
-  struct Grow {
-    Bounds bounds;
-    void operator()(const SphereShape& s) { bounds.add(s.center, s.radius); }
-    void operator()(const DiskShape& s) { bounds.add(s.center, s.radius); }
-    void operator()(const RectangleShape& s) {
-      bounds.add(s.origin);
-      bounds.add(s.origin + s.edge_u);
-      bounds.add(s.origin + s.edge_v);
-      bounds.add(s.origin + s.edge_u + s.edge_v);
-    }
-    void operator()(const MeshShape& s) {
-      for (const Vec3d& v : s.vertices) bounds.add(v);
-    }
-  } grow;
-  for (const ShapeDescription& shape : shapes) std::visit(grow, shape.geometry);
-  return grow.bounds;
-}
-
-/// Turns a description into the buffers, moving everything by −center on the way.
-class SceneBuilder {
- public:
-  SceneBuilder(SceneGeometry& geometry, const Vec3d& center)
-      : geometry_(geometry), center_(center) {}
-
-  void add(const ShapeDescription& shape) {
-    shape_ = &shape;
-    std::visit(*this, shape.geometry);
-    ++group_;
-  }
-
-  void add(const PointDescription& point) {
-    add_light(PointLight{local(point.position), rgb_cast<float>(point.intensity)});
-    ++group_;
-  }
-
-  /// @return index of the environment's light, or kNoLight
-  std::uint32_t add_environment(const SceneDescription& scene) {
-    const Rgbf sky = rgb_cast<float>(scene.environment.value_or(Rgbd{}));
-    if (scene.environment_map) return add_light(*scene.environment_map);
-    if (scene.sun) {
-      return add_light(SunAndSky::make(vec_cast<float>(scene.sun->direction), scene.sun->half_angle,
-                                       rgb_cast<float>(scene.sun->radiance), sky));
-    }
-    return scene.environment ? add_light(ConstantEnvironment{sky}) : kNoLight;
-  }
-
-  LightSet take_lights(LightSelection selection, double scene_radius) {
-    return {std::move(lights_), groups_, selection, scene_radius};
-  }
-
-  void operator()(const SphereShape& s) {
-    const Sphere sphere{local(s.center), static_cast<float>(s.radius)};
-    geometry_.spheres.push_back(sphere);
-    add_primitive(kSpheres, s.flip_normals, [&](const Rgbf& radiance) {
-      return SphereLight{sphere.center, sphere.radius, s.flip_normals, radiance};
-    });
-  }
-
-  void operator()(const RectangleShape& s) {
-    const auto first = static_cast<std::uint32_t>(geometry_.vertices.size());
-    for (const Vec3d& corner :
-         {s.origin, s.origin + s.edge_u, s.origin + s.edge_u + s.edge_v, s.origin + s.edge_v}) {
-      geometry_.vertices.push_back(local(corner));
-    }
-    geometry_.rectangles.push_back({first, first + 1, first + 2, first + 3});
-    add_primitive(kRectangles, s.flip_normals, [&](const Rgbf& radiance) {
-      // From the rounded corners: the light must be the surface that rays hit.
-      const Vec3f o = geometry_.vertices[first];
-      const Vec3f u = geometry_.vertices[first + 1] - o;
-      const Vec3f v = geometry_.vertices[first + 3] - o;
-      return RectangleLight{o,
-                            u,
-                            v,
-                            facing(s.flip_normals) * normalize(cross(u, v)),
-                            radiance,
-                            shape_->light_by_solid_angle,
-                            shape_->light_two_sided};
-    });
-  }
-
-  void operator()(const DiskShape& s) {
-    const Disk disk{local(s.center), static_cast<float>(s.radius)};
-    const Vec3f normal = vec_cast<float>(s.normal);
-    geometry_.disks.push_back(disk);
-    geometry_.disk_normals.push_back(normal);
-    add_primitive(kDisks, false, [&](const Rgbf& radiance) {
-      return DiskLight{disk.center, normal, disk.radius, radiance};
-    });
-  }
-
-  void operator()(const MeshShape& s) {
-    const auto first = static_cast<std::uint32_t>(geometry_.vertices.size());
-    for (const Vec3d& v : s.vertices) geometry_.vertices.push_back(local(v));
-    for (const Triangle& t : s.triangles) {
-      const Triangle moved{t[0] + first, t[1] + first, t[2] + first};
-      geometry_.triangles.push_back(moved);
-      add_primitive(kTriangles, s.flip_normals, [&](const Rgbf& radiance) {
-        const Vec3f v0 = geometry_.vertices[moved[0]];
-        const Vec3f e1 = geometry_.vertices[moved[1]] - v0;
-        const Vec3f e2 = geometry_.vertices[moved[2]] - v0;
-        return TriangleLight{v0,       e1,
-                             e2,       facing(s.flip_normals) * normalize(cross(e1, e2)),
-                             radiance, shape_->light_by_solid_angle};
-      });
-    }
-  }
-
- private:
-  static float facing(bool flip_normals) { return flip_normals ? -1.0f : 1.0f; }
-
-  Vec3f local(const Vec3d& p) const { return vec_cast<float>(p - center_); }
-
-  template <class MakeLight>
-  void add_primitive(GeometryId id, bool flip_normals, const MakeLight& make_light) {
-    std::uint32_t light = kNoLight;
-    if (shape_->radiance && !is_black(*shape_->radiance)) {
-      light = add_light(make_light(rgb_cast<float>(*shape_->radiance)));
-    }
-    const std::uint32_t behind = shape_->light_two_sided ? light : kNoLight;
-    geometry_.primitives[id].push_back({shape_->bsdf, light, behind, facing(flip_normals)});
-  }
-
-  std::uint32_t add_light(const Light& light) {
-    lights_.push_back(light);
-    groups_.push_back(group_);
-    return static_cast<std::uint32_t>(lights_.size()) - 1;
-  }
-
-  SceneGeometry& geometry_;
-  Vec3d center_;
-  const ShapeDescription* shape_ = nullptr;
-  std::vector<Light> lights_;
-  std::vector<std::uint32_t> groups_;  // number of the shape that each light belongs to
-  std::uint32_t group_ = 0;
-};
-
-}  // namespace
-
-Scene::Scene(const SceneDescription& description)
-    : geometry_(std::make_unique<SceneGeometry>()),
-      bsdfs_(description.bsdfs),
-      shape_count_(description.shapes.size()) {
-  if (!bsdfs_) throw std::invalid_argument("a scene needs a table of BSDFs");
-  const Bounds bounds = bounds_of(description.shapes);
-  const Vec3d center = bounds.center();
-  SceneBuilder builder(*geometry_, center);
-  for (const ShapeDescription& shape : description.shapes) builder.add(shape);
-  for (const PointDescription& point : description.points) builder.add(point);
-  geometry_->build();
-  environment_ = builder.add_environment(description);
-  lights_ = builder.take_lights(description.light_selection, bounds.radius());
-  camera_ = Camera(description.camera, center);
-}
-
+Scene::Scene(SceneParts parts) : parts_(std::move(parts)) {}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
 std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
-  return geometry_->intersect(ray);
+  return parts_.geometry->intersect(ray);
 }
 
-bool Scene::occluded(const Ray& ray) const { return geometry_->occluded(ray); }
+bool Scene::occluded(const Ray& ray) const { return parts_.geometry->occluded(ray); }
 
 }  // namespace plumbline::renderer

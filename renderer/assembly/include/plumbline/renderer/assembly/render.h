@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include <plumbline/renderer/core/render/render_loop.h>
@@ -17,13 +15,6 @@ enum class Backend {
   batched,  ///< many side by side, in packets, where the strategy allows, else as `scalar`
   scalar    ///< one path after the other: the reference
 };
-
-inline constexpr std::array kBackends{Backend::batched, Backend::scalar};
-
-/// The name on the command line: "batched", "scalar".
-constexpr std::string_view name(Backend backend) {
-  return backend == Backend::batched ? "batched" : "scalar";
-}
 
 /// What of, by which paths, and how they are traced.
 struct RenderOptions : SamplingOptions {

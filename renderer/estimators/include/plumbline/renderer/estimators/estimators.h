@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include <plumbline/renderer/core/mis/heuristics.h>
+#include <plumbline/renderer/estimators/mis_weights.h>
 
 /// Ways to estimate an integral with several sampling techniques, free of any scene.
 ///

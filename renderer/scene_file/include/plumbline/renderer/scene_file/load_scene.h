@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <plumbline/renderer/core/scene/description.h>
+#include <plumbline/renderer/assembly/description.h>
 
 namespace plumbline::renderer {
 

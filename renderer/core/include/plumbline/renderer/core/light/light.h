@@ -1,13 +1,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -89,12 +87,6 @@ enum class LightSelection {
   area,     ///< by surface; a light without any counts like the average of those that have one
   power     ///< by emitted power; of an infinite light by what meets the scene's bounding sphere
 };
-
-inline constexpr std::array kLightSelections{LightSelection::uniform, LightSelection::area,
-                                             LightSelection::power};
-
-/// The name on the command line: "uniform", "area", "power".
-std::string_view name(LightSelection selection);
 
 /// All lights of a scene with the way one of them is chosen.
 class LightSet {

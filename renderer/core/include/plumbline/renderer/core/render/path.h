@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <plumbline/renderer/core/mis/heuristics.h>
 #include <plumbline/renderer/core/render/strategy.h>
 #include <plumbline/renderer/core/sampling/sampler.h>
 #include <plumbline/renderer/core/scene/scene.h>

@@ -16,13 +16,6 @@ enum class SamplerType {
   sobol         ///< Owen-scrambled Sobol' pairs, stratified over the samples of a pixel
 };
 
-inline constexpr std::array kSamplers{SamplerType::independent, SamplerType::sobol};
-
-/// The name on the command line: "independent", "sobol".
-constexpr std::string_view name(SamplerType type) {
-  return type == SamplerType::sobol ? "sobol" : "independent";
-}
-
 /// The random numbers of one path, uniform in [0, 1) and never 1. Which numbers they are depends on
 /// the arguments alone, not on who asked before.
 class Sampler {

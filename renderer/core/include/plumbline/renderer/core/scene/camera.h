@@ -1,10 +1,18 @@
 #pragma once
 
 #include <plumbline/renderer/core/math.h>
-#include <plumbline/renderer/core/scene/description.h>
 #include <plumbline/renderer/core/scene/ray.h>
 
 namespace plumbline::renderer {
+
+/// Pinhole camera as in Mitsuba 3: looks along +z of its own frame, +y up, +x to the *left* of the
+/// image.
+struct CameraDescription {
+  Vec3d origin;
+  Vec3d left, up, forward;    ///< unit, world space
+  double tan_half_fov_x = 1;  ///< of the horizontal field of view
+  int width = 256, height = 256;
+};
 
 /// Pinhole camera, all points of the film in focus.
 class Camera {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -8,21 +9,26 @@
 #include <plumbline/renderer/core/light/light.h>
 #include <plumbline/renderer/core/math.h>
 #include <plumbline/renderer/core/scene/camera.h>
-#include <plumbline/renderer/core/scene/description.h>
 #include <plumbline/renderer/core/scene/surface_hit.h>
 
 namespace plumbline::renderer {
 
 class SceneGeometry;
 
+/// What a scene is made of; see assembly's make_scene.
+struct SceneParts {
+  std::unique_ptr<SceneGeometry> geometry;  ///< built
+  std::shared_ptr<const BsdfTable> bsdfs;
+  LightSet lights;
+  std::uint32_t environment = kNoLight;  ///< index in `lights`
+  Camera camera;
+  std::size_t shape_count = 0;  ///< as the user counts them
+};
+
 /// A scene ready for rays: Embree's acceleration structure, BSDFs, lights and the camera.
-///
-/// All geometry is moved in double so that the centre of its bounding box is the origin, and only
-/// then rounded to float: a scene at 1e5 keeps the digits that it would otherwise lose.
 class Scene {
  public:
-  /// @throws InputError where Embree refuses the geometry, std::invalid_argument without BSDFs
-  explicit Scene(const SceneDescription& description);
+  explicit Scene(SceneParts parts);
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
@@ -33,23 +39,18 @@ class Scene {
   /// @return whether anything lies on the ray before t_max
   bool occluded(const Ray& ray) const;
 
-  const BsdfTable& bsdfs() const { return *bsdfs_; }
-  const LightSet& lights() const { return lights_; }
+  const BsdfTable& bsdfs() const { return *parts_.bsdfs; }
+  const LightSet& lights() const { return parts_.lights; }
   /// Index of the environment in lights(), or kNoLight.
-  std::uint32_t environment() const { return environment_; }
-  const Camera& camera() const { return camera_; }
-  std::size_t shape_count() const { return shape_count_; }
+  std::uint32_t environment() const { return parts_.environment; }
+  const Camera& camera() const { return parts_.camera; }
+  std::size_t shape_count() const { return parts_.shape_count; }
 
   /// The surfaces, for those who trace many rays at once or ask Embree directly.
-  const SceneGeometry& geometry() const { return *geometry_; }
+  const SceneGeometry& geometry() const { return *parts_.geometry; }
 
  private:
-  std::unique_ptr<SceneGeometry> geometry_;
-  std::shared_ptr<const BsdfTable> bsdfs_;
-  LightSet lights_;
-  std::uint32_t environment_ = kNoLight;
-  Camera camera_;
-  std::size_t shape_count_ = 0;
+  SceneParts parts_;
 };
 
 }  // namespace plumbline::renderer

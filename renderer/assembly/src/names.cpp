@@ -1,10 +1,8 @@
-#include <plumbline/renderer/core/render/strategy.h>
+#include <plumbline/renderer/assembly/names.h>
 
 #include <fmt/format.h>
 
 #include <charconv>
-
-#include <plumbline/renderer/core/from_name.h>
 
 namespace plumbline::renderer {
 namespace {
@@ -49,6 +47,26 @@ std::string_view name(Heuristic heuristic) {
       return "maximum";
   }
   return "?";
+}
+
+std::string_view name(SamplerType sampler) {
+  return sampler == SamplerType::sobol ? "sobol" : "independent";
+}
+
+std::string_view name(LightSelection selection) {
+  switch (selection) {
+    case LightSelection::uniform:
+      return "uniform";
+    case LightSelection::area:
+      return "area";
+    case LightSelection::power:
+      return "power";
+  }
+  return "?";
+}
+
+std::string_view name(Backend backend) {
+  return backend == Backend::batched ? "batched" : "scalar";
 }
 
 std::string describe(const Weighting& weighting) {

@@ -13,9 +13,11 @@
 #include <plumbline/renderer/core/bsdf/bsdf_table.h>
 #include <plumbline/renderer/core/light/light.h>
 #include <plumbline/renderer/core/math.h>
+#include <plumbline/renderer/core/scene/camera.h>
+#include <plumbline/renderer/core/scene/scene.h>
 
 /// What a scene file says, in double and in world space: the parser's output and the input of
-/// `Scene`.
+/// `make_scene`.
 namespace plumbline::renderer {
 
 /// Normals point outwards, or inwards with `flip_normals`. The front is where the normal points.
@@ -53,15 +55,6 @@ struct ShapeDescription {
   std::optional<Rgbd> radiance;       ///< emission from the front side [W/(m² sr)]
   bool light_by_solid_angle = false;  ///< how a rectangle's or mesh's emission is sampled
   bool light_two_sided = false;       ///< a rectangle's other side emits alike
-};
-
-/// Pinhole camera as in Mitsuba 3: looks along +z of its own frame, +y up, +x to the *left* of the
-/// image.
-struct CameraDescription {
-  Vec3d origin;
-  Vec3d left, up, forward;    ///< unit, world space
-  double tan_half_fov_x = 1;  ///< of the horizontal field of view
-  int width = 256, height = 256;
 };
 
 /// A light without surface, alike in all directions.
@@ -102,5 +95,11 @@ struct SceneDescription {
   std::vector<PointDescription> points;
   LightSelection light_selection = LightSelection::uniform;
 };
+
+/// All geometry is moved in double so that the centre of its bounding box is the origin, and only
+/// then rounded to float: a scene at 1e5 keeps the digits that it would otherwise lose.
+///
+/// @throws InputError where Embree refuses the geometry, std::invalid_argument without BSDFs
+Scene make_scene(const SceneDescription& description);
 
 }  // namespace plumbline::renderer

@@ -1,4 +1,4 @@
-#include <plumbline/renderer/core/render/direct.h>
+#include <plumbline/renderer/assembly/direct.h>
 
 #include <optional>
 
