@@ -53,9 +53,6 @@ template <class T>
 struct BsdfValue {
   Rgb<T> f;    ///< [1/sr], as `eval` gives it
   T pdf_w{0};  ///< [1/sr], as `pdf` gives it
-  /// Returned in two registers, a value would be stored in halves and read as a whole, which the
-  /// processor waits for; one number more is returned in memory.
-  T beyond_registers{0};
 };
 
 /// eval and pdf of a BSDF together, by its own `evaluate` where it has one.
