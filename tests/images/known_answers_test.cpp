@@ -95,7 +95,9 @@ class LoadedScene {
     const auto key = std::pair(way.selection, way.by_solid_angle);
     auto found = scenes_.find(key);
     if (found == scenes_.end()) {
-      found = scenes_.try_emplace(key, renderer::make_scene(way.description(description_))).first;
+      found =
+          scenes_.try_emplace(key, renderer::make_scene(one_pixel(way.description(description_))))
+              .first;
     }
     return found->second;
   }

@@ -2,21 +2,25 @@
 
 #include <cstdint>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/render/path.h>
-#include <plumbline/renderer/core/scene/scene.h>
 #include <plumbline/verify/mean.h>
 
 namespace plumbline::tests {
 
-/// Luminance samples of paths through uniformly random film positions: independent and identically
-/// distributed, with the mean of the whole image. Drawn in parallel, merged in a fixed order.
+/// The scene with a film of one pixel, as large as the whole film was: what is drawn of it are
+/// independent, identically distributed samples with the mean of the whole image.
+renderer::SceneDescription one_pixel(renderer::SceneDescription scene);
+
+/// Luminance samples of paths through the one pixel, by the backend that users get. Drawn in
+/// parallel, merged in a fixed order.
 ///
 /// Under Sobol one sample is the mean over a net of kNetSize paths with a scramble of its own: the
 /// paths of one net depend on each other, nets do not.
 ///
-/// @param scene  must outlive the sampler
+/// @param scene  of `one_pixel`; must outlive the sampler
 verify::MomentSampler path_samples(
-    const renderer::Scene& scene, const renderer::PathOptions& options, std::uint64_t seed,
+    const renderer::Scene& scene, const renderer::PathOptions& path, std::uint64_t seed,
     renderer::SamplerType sampler = renderer::SamplerType::independent);
 
 /// Large enough that the net's order pays, small enough that the fewest nets a check takes do not.

@@ -30,7 +30,7 @@ class BenchScene {
       : name_(name),
         description_(
             renderer::load_scene(std::filesystem::path(PLUMBLINE_BENCH_SCENES) / (name + ".xml"))),
-        scene_(renderer::make_scene(description_)) {}
+        scene_(renderer::make_scene(one_pixel(description_))) {}
 
   verify::MomentSampler samples(Strategy strategy, std::uint64_t seed) const {
     return path_samples(scene_,

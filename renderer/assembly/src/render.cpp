@@ -1,5 +1,7 @@
 #include <plumbline/renderer/assembly/render.h>
 
+#include <utility>
+
 #include <plumbline/renderer/batched/batch.h>
 #include <plumbline/renderer/core/errors.h>
 
@@ -8,15 +10,10 @@
 
 namespace plumbline::renderer {
 
-RenderResult render(const Scene& scene, const RenderOptions& options) {
-  if (options.path.max_depth < 0 && options.path.rr_depth == kNoRoulette) {
-    throw InputError(
-        "paths of unlimited depth without Russian roulette may never end: set a maximum depth or a "
-        "roulette depth");
-  }
-  if (options.allocation) return render_allocated(scene, options);
-  const std::unique_ptr<BsdfKernels> kernels = batched_bsdfs(scene.bsdfs());
-  const auto make_sampler = [&] {
+std::function<std::unique_ptr<PixelSampler>()> pixel_samplers(const Scene& scene,
+                                                              const RenderOptions& options) {
+  const std::shared_ptr<const BsdfKernels> kernels = batched_bsdfs(scene.bsdfs());
+  return [&scene, &options, kernels] {
     std::unique_ptr<PixelSampler> sampler;
     if (options.backend == Backend::batched && kernels) {
       sampler = make_batched_sampler(scene, *kernels, options.path, options.sampler, options.seed);
@@ -24,7 +21,16 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     return sampler ? std::move(sampler)
                    : make_scalar_sampler(scene, options.path, options.sampler, options.seed);
   };
-  return {run_render_loop(scene.camera(), options, make_sampler), {}};
+}
+
+RenderResult render(const Scene& scene, const RenderOptions& options) {
+  if (options.path.max_depth < 0 && options.path.rr_depth == kNoRoulette) {
+    throw InputError(
+        "paths of unlimited depth without Russian roulette may never end: set a maximum depth or a "
+        "roulette depth");
+  }
+  if (options.allocation) return render_allocated(scene, options);
+  return {run_render_loop(scene.camera(), options, pixel_samplers(scene, options)), {}};
 }
 
 }  // namespace plumbline::renderer

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -37,6 +39,13 @@ struct RenderResult : LoopResult {
 ///
 /// @param iterations  as rendered with
 std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterations);
+
+/// What makes the samplers of `render`, without an allocation: one per thread, of the backend that
+/// is asked for, or of `scalar` where the batched one does not know the strategy.
+///
+/// @param scene, options  kept, not copied
+std::function<std::unique_ptr<PixelSampler>()> pixel_samplers(const Scene& scene,
+                                                              const RenderOptions& options);
 
 /// Renders an image. The same scene, path options, seed and sample count give the same bits,
 /// whatever the number of threads or passes.

@@ -57,8 +57,8 @@ std::array<T, kMaxTechniques> relative_densities(std::span<const TechniqueDensit
 /// MIS weight of technique `i` at a point that all of them are asked about.
 ///
 /// With q_k = count·pdf: balance q_i/Σq; power q_i^β/Σq^β; cutoff q_i/Σ{q ≥ α q_max}, 0 below;
-/// maximum 1 for the largest, shared by those that differ from it by rounding only. Where atoms meet
-/// the point, they alone share the weight, by their masses.
+/// maximum 1 for the largest, shared by those that differ from it by rounding only. Where atoms
+/// meet the point, they alone share the weight, by their masses.
 ///
 /// @param techniques  up to kMaxTechniques
 /// @return            in [0, 1]; 0 where the density is 0; sums to 1 over `i` within M ulp wherever
