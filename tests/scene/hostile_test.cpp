@@ -105,6 +105,18 @@ TEST(HostileFile, UndeclaredEntityIsNotExpanded) {
             "rectangle, disk, obj");
 }
 
+TEST(HostileFile, OfParametersThatDoubleIsRefused) {
+  std::string body = "<default name=\"p0\" value=\"billions\"/>\n";
+  for (int i = 1; i < 40; ++i) {
+    const std::string before = "$p" + std::to_string(i - 1);
+    body += "<default name=\"p" + std::to_string(i) + "\" value=\"" + before + before + "\"/>\n";
+  }
+  EXPECT_EQ(
+      refusal_of_text(scene_with(body)),
+      "scene.xml:24: <default name=\"p21\">: parameters have put in more than 16777216 bytes up "
+      "to here");
+}
+
 TEST(HostileFile, CutAnywhereNeverCrashes) {
   const std::string text = scene_with(
       "<default name=\"r\" value=\"1\"/><shape type=\"sphere\"><float name=\"radius\" "

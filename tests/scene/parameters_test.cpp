@@ -62,11 +62,11 @@ TEST(Parameters, OverrideThatChangesNothingIsRefused) {
 
 TEST(Parameters, OverrideIsHeldToTheSameRulesAsTheFile) {
   EXPECT_EQ(refusal_of_text(scene_with(kSphere), {{"radius", "nan"}}),
-            R"(scene.xml:4: <float name="$name">: "nan" is not finite)");
+            R"(scene.xml:4: <float name="radius">: "nan" is not finite)");
   EXPECT_EQ(refusal_of_text(scene_with(kSphere), {{"radius", "2\"/>"}}),
-            R"(scene.xml:4: <float name="$name">: "2"/>" is not a number)");
+            R"(scene.xml:4: <float name="radius">: "2"/>" is not a number)");
   EXPECT_EQ(refusal_of_text(scene_with(kSphere), {{"radius", "$radius"}}),
-            R"(scene.xml:4: <float name="$name">: "$radius" is not a number)");
+            R"(scene.xml:4: <float name="radius">: "$radius" is not a number)");
 }
 
 }  // namespace

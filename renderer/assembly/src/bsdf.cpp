@@ -5,20 +5,25 @@
 
 namespace plumbline::renderer {
 
-BsdfSet::BsdfSet(std::vector<Bsdf> bsdfs) : bsdfs_(std::move(bsdfs)) {
-  for (std::uint32_t i = 0; i < bsdfs_.size(); ++i) {
-    const auto add_parts = [&]<class B>(const B& bsdf) {
-      if constexpr (NestedBsdf<B>) {
-        for (const std::uint32_t child : bsdf.children()) {
-          if (child >= i) throw std::invalid_argument("a nested BSDF must follow its children");
-        }
-        parts_.push_back(bsdf.parts(*this));
-      } else {
-        parts_.push_back(bsdf.parts());
+BsdfSet::BsdfSet(std::vector<Bsdf> bsdfs) {
+  for (Bsdf& bsdf : bsdfs) add(std::move(bsdf));
+}
+
+std::uint32_t BsdfSet::add(Bsdf bsdf) {
+  const auto index = static_cast<std::uint32_t>(bsdfs_.size());
+  const auto add_parts = [&]<class B>(const B& b) {
+    if constexpr (NestedBsdf<B>) {
+      for (const std::uint32_t child : b.children()) {
+        if (child >= index) throw std::invalid_argument("a nested BSDF must follow its children");
       }
-    };
-    std::visit(add_parts, bsdfs_[i]);
-  }
+      parts_.push_back(b.parts(*this));
+    } else {
+      parts_.push_back(b.parts());
+    }
+  };
+  std::visit(add_parts, bsdf);
+  bsdfs_.push_back(std::move(bsdf));
+  return index;
 }
 
 BsdfValue<float> BsdfSet::evaluate(std::uint32_t i, const Vec3f& wo, const Vec3f& wi) const {

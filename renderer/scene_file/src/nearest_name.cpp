@@ -33,16 +33,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string name_hint(std::string_view name, const std::vector<std::string>& known) {
   if (known.empty()) return {};
   if (name.size() <= kLongestName) {
-    const std::string* nearest = nullptr;
-    std::size_t smallest = (name.size() + 1) / 2 + 1;
-    for (const std::string& candidate : known) {
-      const std::size_t distance = edit_distance(name, candidate);
-      if (distance < smallest) {
-        smallest = distance;
-        nearest = &candidate;
-      }
+    const auto by_distance = [&](const std::string& a, const std::string& b) {
+      return edit_distance(name, a) < edit_distance(name, b);
+    };
+    const std::string& nearest = *std::min_element(known.begin(), known.end(), by_distance);
+    if (edit_distance(name, nearest) <= (name.size() + 1) / 2) {
+      return fmt::format("did you mean \"{}\"?", nearest);
     }
-    if (nearest) return fmt::format("did you mean \"{}\"?", *nearest);
   }
   return fmt::format("supported: {}", fmt::join(known, ", "));
 }

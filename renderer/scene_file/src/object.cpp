@@ -1,126 +1,120 @@
 #include "object.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
-#include <iterator>
-
-#include <plumbline/renderer/scene_file/nearest_name.h>
-
-#include "text_file.h"
+#include <string_view>
 
 namespace plumbline::renderer {
 namespace {
 
+template <class Items, class T>
+bool contains(const Items& items, const T& item) {
+  return std::find(items.begin(), items.end(), item) != items.end();
+}
+
 /// Those of Mitsuba's that we do not take count as properties too, for the message.
-constexpr std::array<std::string_view, 10> kPropertyTags = {
-    "boolean",  "float",  "integer", "point",     "rgb",
-    "spectrum", "string", "texture", "transform", "vector"};
-
-template <class Range, class T>
-bool contains(const Range& range, const T& value) {
-  return std::find(range.begin(), range.end(), value) != range.end();
+bool is_property(Node node) {
+  static const std::vector<std::string> tags = {"boolean",   "float",    "integer", "point",
+                                                "rgb",       "spectrum", "string",  "texture",
+                                                "transform", "vector"};
+  return contains(tags, node.name());
 }
 
-bool is_property(const Element& element) { return contains(kPropertyTags, element.tag()); }
-
-bool gives(const Element& child, const PropertyRow& row) {
-  return row.kind == Kind::nested ? contains(row.tags(), child.tag())
-                                  : is_property(child) && child.text("name") == row.name;
+bool gives(Node child, const PropertyRow& row) {
+  return row.parse ? is_property(child) && attribute(child, "name") == row.name
+                   : contains(row.tags, child.name());
 }
 
-std::string with_hint(const std::string& message, const std::string& name,
-                      const std::vector<std::string>& known) {
-  const std::string hint = name_hint(name, known);
-  return hint.empty() ? message : fmt::format("{}; {}", message, hint);
+/// What a property says: its `value`, or what its kind has in place of that.
+std::string text_of(Node property) {
+  const std::string_view tag = property.name();
+  if (tag == "transform") {  // holds operations
+    allow_attributes(property, {"name"});
+    return {};
+  }
+  if (tag == "point" || tag == "vector") {
+    allow_only_attributes(property, {"name", "x", "y", "z", "value"});
+    return vector_text(property, "0");
+  }
+  allow_only_attributes(property, {"name", "value"});
+  return attribute(property, "value");
+}
+
+/// "<bsdf> or <ref>"
+std::string in_brackets(const std::vector<std::string>& tags) {
+  return fmt::format("<{}>", fmt::join(tags, "> or <"));
 }
 
 }  // namespace
 
-Object::Object(const Element& element, const ObjectRow& type) : element_(element) {
-  const std::vector<Element> children = element.children();
-  for (const PropertyRow& row : type.properties) {
-    std::vector<Element> given;
-    std::copy_if(children.begin(), children.end(), std::back_inserter(given),
-                 [&](const Element& child) { return gives(child, row); });
-    row.kind == Kind::nested ? read_nested(row, given) : read(row, given);
+Object::Object(Node node, const ObjectType& type) : node_(node) {
+  for (const PropertyRow& row : type.properties) given_[row.name];
+  for (const Node child : node.children()) {
+    const auto row = std::find_if(type.properties.begin(), type.properties.end(),
+                                  [&](const PropertyRow& p) { return gives(child, p); });
+    if (row == type.properties.end()) refuse_child(child, type);
+    add(child, *row);
   }
-  for (const Element& child : children) {
-    if (std::none_of(type.properties.begin(), type.properties.end(),
-                     [&](const PropertyRow& row) { return gives(child, row); })) {
-      refuse(child, type);
-    }
-  }
-  if (!missing_.empty()) element.fail(element.label() + missing_);
+  for (const PropertyRow& row : type.properties) complete(row);
 }
 
-void Object::read(const PropertyRow& row, const std::vector<Element>& given) {
-  const std::string tags = fmt::format("{}", fmt::join(row.tags(), "> or <"));
-  if (given.empty() && row.absent == kRequired) {
-    if (missing_.empty()) missing_ = fmt::format(" needs <{} name=\"{}\">", tags, row.name);
-  } else if (given.empty()) {
-    values_.emplace(row.name, absent_property(row, element_));
-  } else {
-    const Element& property = given.front();
-    if (given.size() > 1) {
-      given[1].fail(fmt::format("{} has a second property \"{}\"", element_.label(), row.name));
-    }
-    if (!contains(row.tags(), property.tag())) {
-      property.fail(
-          fmt::format("{} of {} must be a <{}>", property.label(), element_.label(), tags));
-    }
-    given_.emplace(row.name, property);
-    values_.emplace(row.name, parse_property(row, property));
+void Object::add(Node child, const PropertyRow& row) {
+  std::vector<Node>& given = given_.at(row.name);
+  given.push_back(child);
+  const std::string tags = in_brackets(row.tags);
+  if (!row.parse) {
+    if (given.size() < 2 || row.range.high > 1) return;
+    refuse(child, "{} may hold one {} only", label(node_), tags);
   }
+  if (given.size() > 1) refuse(child, "{} has a second property \"{}\"", label(node_), row.name);
+  if (!contains(row.tags, child.name())) {
+    refuse(child, "{} of {} must be a {}", label(child), label(node_), tags);
+  }
+  values_[row.name] = row.parse(child, text_of(child), row.range);
 }
 
-void Object::read_nested(const PropertyRow& row, const std::vector<Element>& given) {
-  const std::string tags = fmt::format("<{}>", fmt::join(row.tags(), "> or <"));
-  const auto count = static_cast<double>(given.size());
-  const Range& range = row.range;
-  std::string wrong;
-  if (range.high < Range{}.high) {
-    const bool either = range.low < range.high;
-    if (count < range.low || count > range.high) {
-      wrong = fmt::format(": nests {}{:g} BSDFs: {}",
-                          either ? fmt::format("{:g} or ", range.low) : "", range.high, tags);
-    }
-  } else if (count > 1) {
-    given[1].fail(fmt::format("{} may hold one {} only", element_.label(), tags));
-  } else if (count == 0 && row.absent == kRequired) {
-    wrong = fmt::format(" needs {}", tags);
+void Object::complete(const PropertyRow& row) {
+  const auto count = static_cast<double>(given_.at(row.name).size());
+  const double low = row.range.low, high = row.range.high;
+  if (!row.parse) {
+    if (count >= low && count <= high) return;
+    const std::string tags = in_brackets(row.tags);
+    if (high == 1) refuse(node_, "{} needs {}", label(node_), tags);
+    fail(node_, "nests {}{:g} BSDFs: {}", low < high ? fmt::format("{:g} or ", low) : "", high,
+         tags);
   }
-  if (missing_.empty()) missing_ = wrong;
-  values_.emplace(row.name, given);
+  if (count > 0) return;
+  if (row.absent == kRequired) {
+    refuse(node_, "{} needs <{} name=\"{}\">", label(node_), row.tags.front(), row.name);
+  }
+  values_[row.name] = row.parse(node_, row.absent, row.range);
 }
 
-void Object::refuse(const Element& child, const ObjectRow& type) const {
+void Object::refuse_child(Node child, const ObjectType& type) const {
   std::vector<std::string> names, tags;
   for (const PropertyRow& row : type.properties) {
-    if (row.kind != Kind::nested) names.emplace_back(row.name);
-    for (const std::string& tag : row.tags()) {
+    if (row.parse) names.push_back(row.name);
+    for (const std::string& tag : row.tags) {
       if (!contains(tags, tag)) tags.push_back(tag);
     }
   }
-  const std::string tag = child.tag();
-  if (is_property(child) && !names.empty()) {
-    const std::string name = child.text("name");
-    child.fail(with_hint(fmt::format("{} has no property {}", element_.label(), in_quotes(name)),
-                         name, names));
+  if (!is_property(child) || names.empty()) {
+    refuse_name(child, fmt::format("{} may not hold {}", label(node_), tag_of(child)), child.name(),
+                tags);
   }
-  child.fail(with_hint(fmt::format("{} may not hold <{}>", element_.label(), tag.substr(0, 60)),
-                       tag, tags));
+  const std::string name = attribute(child, "name");
+  refuse_name(child, fmt::format("{} has no property {}", label(node_), in_quotes(name)), name,
+              names);
 }
 
-void Object::fail(const std::string& message) const {
-  element_.fail(fmt::format("{}: {}", element_.label(), message));
-}
-
-void Object::fail(const PropertyRow& property, const std::string& message) const {
-  const auto found = given_.find(property.name);
-  const Element& at = found == given_.end() ? element_ : found->second;
-  at.fail(fmt::format("{}: {}", at.label(), message));
+Object read_object(Node node, const Named<ObjectType>& types, Reading& in) {
+  allow_attributes(node, {"type", "id", "name"});
+  const std::string name = attribute(node, "type");
+  const ObjectType& type =
+      look_up(types, name, node,
+              fmt::format("{} of type {} is not supported", tag_of(node), in_quotes(name)));
+  Object object(node, type);
+  type.read(object, in);
+  return object;
 }
 
 }  // namespace plumbline::renderer

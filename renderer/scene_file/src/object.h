@@ -1,98 +1,114 @@
 #pragma once
 
-#include <initializer_list>
+#include <any>
+#include <functional>
 #include <map>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "property.h"
-#include "scene_file.h"
+#include "node.h"
+#include "transform.h"
 
-/// Objects of a scene file (`<shape>`, `<film>`, …), read by the row of their type.
+/// Objects of a scene file (`<shape>`, `<film>`, …), read by the row of their type: parsing,
+/// checks, messages and the tables of docs/scene_format.md all come from the rows.
 namespace plumbline::renderer {
 
-struct ObjectRow {
-  std::string name;  ///< of the type
+/// What a property is, which elements give one, and what their text means. A default has the object
+/// for its element.
+template <class T>
+struct Kind {
+  std::vector<std::string> tags;
+  T (*parse)(Node at, std::string_view text, const Range& range);
+};
+
+inline const Kind<double> kFloat{{"float"}, parse_number<double>};
+inline const Kind<int> kInteger{{"integer"}, parse_number<int>};
+inline const Kind<bool> kBoolean{{"boolean"}, parse_boolean};
+inline const Kind<std::string> kString{{"string"}, parse_string};
+inline const Kind<Rgbd> kRgb{{"rgb"}, parse_rgb};
+inline const Kind<Vec3d> kPoint{{"point"}, parse_vector};
+inline const Kind<Vec3d> kVector{{"vector"}, parse_vector};
+inline const Kind<Affine> kTransform{{"transform"}, parse_transform};
+
+inline constexpr const char* kRequired = nullptr;
+
+struct PropertyRow {
+  std::string name;
+  std::vector<std::string> tags;  ///< of the elements that give it
+  const char* absent;             ///< the default as a file would write it; or kRequired
+  Range range;                    ///< of nested objects: how many there may be
+  std::function<std::any(Node at, std::string_view text, const Range& range)> parse;  ///< or nested
+};
+
+/// A row that knows the type of its value.
+template <class T>
+struct Property : PropertyRow {
+  Property(const Kind<T>& kind, const char* its_name, const char* its_default, Range its_range = {})
+      : PropertyRow{its_name, kind.tags, its_default, std::move(its_range), kind.parse} {}
+};
+
+/// Objects with one of these tags.
+struct Nested : PropertyRow {
+  Nested(const std::vector<std::string>& its_tags, const char* its_default, Range number)
+      : PropertyRow{its_tags.front(), its_tags, its_default, std::move(number), {}} {}
+};
+
+struct Reading;
+class Object;
+
+/// A type of object.
+struct ObjectType {
   std::vector<PropertyRow> properties;
+  void (*read)(const Object& object, Reading& in);  ///< puts what it makes of one into the scene
 };
 
 /// The values of an object: of every property of its type, given or not.
 class Object {
  public:
-  /// @throws InputError at the first property that is wrong in itself, else at the first child that
-  ///         the type has no row for, else for the first that is missing: a misspelt name is the
-  ///         likelier cause of that
-  Object(const Element& element, const ObjectRow& type);
+  /// @throws Refusal at the first child that is wrong or that the type has no row for, else for the
+  ///         first property that is missing: a misspelt name is the likelier cause of that
+  Object(Node node, const ObjectType& type);
 
-  /// @param property  one of the type's rows
-  template <Kind K>
-  const ValueOf<K>& operator[](const Property<K>& property) const {
-    return std::get<static_cast<std::size_t>(K)>(values_.at(property.name));
+  Node node() const { return node_; }
+
+  template <class T>
+  const T& operator[](const Property<T>& property) const {
+    return std::any_cast<const T&>(values_.at(property.name));
   }
 
-  /// What a property is where it is not given, of this type or of another.
-  template <Kind K>
-  ValueOf<K> absent(const Property<K>& property) const {
-    return std::get<static_cast<std::size_t>(K)>(absent_property(property, element_));
+  const std::vector<Node>& operator[](const Nested& objects) const {
+    return given_.at(objects.name);
   }
 
   /// Whether the file gives it.
-  bool has(const PropertyRow& property) const { return given_.count(property.name) > 0; }
+  bool has(const PropertyRow& property) const { return !given_.at(property.name).empty(); }
 
-  const Element& element() const { return element_; }
-
-  /// Refuses the object, or the value of a property, which is the object's error where absent.
-  [[noreturn]] void fail(const std::string& message) const;
-  [[noreturn]] void fail(const PropertyRow& property, const std::string& message) const;
-
- private:
-  void read(const PropertyRow& row, const std::vector<Element>& given);
-  void read_nested(const PropertyRow& row, const std::vector<Element>& given);
-  [[noreturn]] void refuse(const Element& child, const ObjectRow& type) const;
-
-  Element element_;
-  std::map<std::string_view, Element> given_;  ///< properties
-  std::map<std::string_view, Value> values_;
-  std::string missing_;  ///< what to say if nothing else is wrong
-};
-
-/// A type with the function that makes something of an object of it. There is none without.
-template <class Result, class... Context>
-struct ObjectType : ObjectRow {
-  using Read = Result(const Object&, Context...);
-
-  ObjectType(std::string type, std::vector<PropertyRow> rows, Read& reader)
-      : ObjectRow{std::move(type), std::move(rows)}, read(reader) {}
-
-  Read& read;
-};
-
-/// The types that an element may have in one place of the file.
-template <class Result, class... Context>
-class ObjectTypes {
- public:
-  using Type = ObjectType<Result, Context...>;
-
-  ObjectTypes(std::initializer_list<Type> types) : types_(types) {
-    for (const ObjectRow& row : rows()) names_.push_back(row.name);
+  /// Where an error of a property is: at the object if the file does not give it.
+  Node at(const PropertyRow& property) const {
+    return has(property) ? given_.at(property.name).front() : node_;
   }
 
-  std::vector<ObjectRow> rows() const { return {types_.begin(), types_.end()}; }
-
-  /// @throws InputError for a type that is none of these
-  const Type& of(const Element& element) const { return types_[element.type(names_)]; }
-
-  Result read(const Element& element, Context... context) const {
-    const Type& type = of(element);
-    return type.read(Object(element, type), context...);
+  /// Refuses a property that is not good.
+  template <class... Args>
+  void require(bool good, const PropertyRow& property, fmt::format_string<Args...> why,
+               Args&&... args) const {
+    if (!good) fail(at(property), why, std::forward<Args>(args)...);
   }
 
  private:
-  std::vector<Type> types_;
-  std::vector<std::string> names_;
+  void add(Node child, const PropertyRow& row);
+  void complete(const PropertyRow& row);
+  [[noreturn]] void refuse_child(Node child, const ObjectType& type) const;
+
+  Node node_;
+  std::map<std::string, std::vector<Node>> given_;  ///< elements of each property
+  std::map<std::string, std::any> values_;
 };
+
+/// Reads an object by the row of its type.
+///
+/// @throws Refusal for a type that is none of these
+Object read_object(Node node, const Named<ObjectType>& types, Reading& in);
 
 }  // namespace plumbline::renderer

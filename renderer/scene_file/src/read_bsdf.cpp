@@ -1,220 +1,229 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
-#include <plumbline/renderer/scene_file/nearest_name.h>
-
-#include "read_parts.h"
-#include "text_file.h"
+#include "parts.h"
 
 namespace plumbline::renderer {
 namespace {
 
 constexpr double kMaxEta = 2.5;
 
-constexpr Property<Kind::rgb> kReflectance{"reflectance", "0.5",
-                                           between(0, 1, ": more would create energy")};
-constexpr Property<Kind::metal> kMaterial{"material", "none"};
-constexpr Property<Kind::rgb> kEta{"eta", "0", between(0, 1000)};
-constexpr Property<Kind::rgb> kK{"k", "1", between(0, 1000)};
-constexpr Property<Kind::string> kDistribution{"distribution", kRequired, one_of("ggx")};
-constexpr Property<Kind::number> kAlpha{"alpha", "0.1", between(1e-4, 1)};
-constexpr Property<Kind::number> kAlphaU{"alpha_u", "0.1", between(1e-4, 1)};
-constexpr Property<Kind::number> kAlphaV{"alpha_v", "0.1", between(1e-4, 1)};
-constexpr Property<Kind::index> kGlassIor{"int_ior", "bk7", kPositive};
-constexpr Property<Kind::index> kCoatIor{"int_ior", "polypropylene", kPositive};
-constexpr Property<Kind::index> kExtIor{"ext_ior", "air", kPositive};
-constexpr Property<Kind::number> kExponent{"exponent", "30", between(1, 1e6)};
-constexpr Property<Kind::number> kWeight{"weight", kRequired, between(0, 1)};
-constexpr Property<Kind::number> kThickness{"thickness", kRequired, between(0, 2000)};
-constexpr Property<Kind::index> kFilmIor{"film_ior", "water", kPositive};
-constexpr Property<Kind::nested> kSides{"bsdf", kRequired, between(1, 2)};
-constexpr Property<Kind::nested> kPair{"bsdf", kRequired, between(2, 2)};
-constexpr Property<Kind::nested> kBase{"bsdf", kRequired, between(1, 1)};
+/// What an index may be named, with the values of the table in Mitsuba 3's ior.h.
+const Named<double> kRefractiveIndices = {
+    {"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
+    {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},
+    {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
+    {"glycerol", 1.4729}, {"benzene", 1.501},          {"silicone oil", 1.52045},
+    {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
+    {"pyrex", 1.470},     {"acrylic glass", 1.49},     {"polypropylene", 1.49},
+    {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
+    {"pet", 1.5750},      {"diamond", 2.419},
+};
 
-ReadBsdf read_diffuse(const Object& object, BsdfReader&) {
-  return {Lambertian{rgb_cast<float>(object[kReflectance])}};
+/// The spectra of Mitsuba's data files as linear RGB, relative to air.
+const Named<ConductorFresnel> kMetals = {
+    {"Ag", {{0.155265f, 0.116723f, 0.138381f}, {4.82834f, 3.12225f, 2.14695f}}},
+    {"Al", {{1.65746f, 0.880369f, 0.521229f}, {9.22387f, 6.26952f, 4.83700f}}},
+    {"Au", {{0.143119f, 0.374957f, 1.44248f}, {3.98316f, 2.38572f, 1.60322f}}},
+    {"Cr", {{4.36968f, 2.91670f, 1.65470f}, {5.20643f, 4.23136f, 3.75495f}}},
+    {"Cu", {{0.200438f, 0.924033f, 1.10221f}, {3.91295f, 2.45285f, 2.14219f}}},
+    {"none", {}},
+};
+
+template <class T>
+const T& look_up_material(const Named<T>& materials, Node at, std::string_view name) {
+  const auto message = fmt::format("{}: {} is not known", label(at), in_quotes(name));
+  return look_up(materials, name, at, message);
 }
+
+/// A default, which stands at the object, is a name.
+double parse_index(Node at, std::string_view text, const Range& range) {
+  if (at.name() == std::string_view("float")) return parse_number<double>(at, text, range);
+  return look_up_material(kRefractiveIndices, at, text);
+}
+
+ConductorFresnel parse_metal(Node at, std::string_view text, const Range& /*range*/) {
+  return look_up_material(kMetals, at, text);
+}
+
+const Kind<double> kIndex{{"float", "string"}, parse_index};
+const Kind<ConductorFresnel> kMetal{{"string"}, parse_metal};
+
+const Property kReflectance{kRgb, "reflectance", "0.5",
+                            between(0, 1, ": more would create energy")};
+const Property kMaterial{kMetal, "material", "none", one_of(names_of(kMetals))};
+const Property kEta{kRgb, "eta", "0", between(0, 1000)};
+const Property kK{kRgb, "k", "1", between(0, 1000)};
+const Property kDistribution{kString, "distribution", kRequired, one_of({"ggx"})};
+const Property kAlpha{kFloat, "alpha", "0.1", between(1e-4, 1)};
+const Property kAlphaU{kFloat, "alpha_u", "0.1", between(1e-4, 1)};
+const Property kAlphaV{kFloat, "alpha_v", "0.1", between(1e-4, 1)};
+const Property kGlassIor{kIndex, "int_ior", "bk7", kPositive};
+const Property kCoatIor{kIndex, "int_ior", "polypropylene", kPositive};
+const Property kExtIor{kIndex, "ext_ior", "air", kPositive};
+const Property kExponent{kFloat, "exponent", "30", between(1, 1e6)};
+const Property kWeight{kFloat, "weight", kRequired, between(0, 1)};
+const Property kThickness{kFloat, "thickness", kRequired, between(0, 2000)};
+const Property kFilmIor{kIndex, "film_ior", "water", kPositive};
+const Nested kSides{{"bsdf", "ref"}, kRequired, between(1, 2)};
+const Nested kPair{{"bsdf", "ref"}, kRequired, between(2, 2)};
+const Nested kBase{{"bsdf", "ref"}, kRequired, between(1, 1)};
+
+Rgbf read_reflectance(const Object& object) { return rgb_cast<float>(object[kReflectance]); }
 
 ConductorFresnel read_metal(const Object& object) {
   const bool by_index = object.has(kEta) || object.has(kK);
-  if (by_index && object.has(kMaterial)) object.fail(kMaterial, "either this, or eta and k");
+  object.require(!by_index || !object.has(kMaterial), kMaterial, "either this, or eta and k");
   const ConductorFresnel metal{rgb_cast<float>(object[kEta]), rgb_cast<float>(object[kK])};
   const Rgbf sum = metal.eta() + metal.k();  // near 0 a denominator of Fresnel's equations vanishes
-  if (!(std::min({sum.r, sum.g, sum.b}) >= 0.01f)) {
-    object.fail(kEta, "η and k must not both be 0: their sum is at least 0.01");
-  }
+  object.require(std::min({sum.r, sum.g, sum.b}) >= 0.01f, kEta,
+                 "η and k must not both be 0: their sum is at least 0.01");
   return by_index ? metal : object[kMaterial];
 }
 
 /// What may be rough in Mitsuba's way: its distribution has to be named, as its default is another.
 Ggx read_ggx(const Object& object) {
   const bool anisotropic = object.has(kAlphaU) || object.has(kAlphaV);
-  if (anisotropic && object.has(kAlpha)) object.fail(kAlpha, "either this, or alpha_u and alpha_v");
+  object.require(!anisotropic || !object.has(kAlpha), kAlpha,
+                 "either this, or alpha_u and alpha_v");
   return {static_cast<float>(object[anisotropic ? kAlphaU : kAlpha]),
           static_cast<float>(object[anisotropic ? kAlphaV : kAlpha])};
 }
 
-ReadBsdf read_conductor(const Object& object, BsdfReader&) {
-  return {SmoothConductor{read_metal(object)}};
-}
-
-ReadBsdf read_rough_conductor(const Object& object, BsdfReader&) {
-  return {GgxConductor{read_ggx(object), read_metal(object)}};
-}
-
 /// Index inside over the one outside.
-double read_eta(const Object& object, const Property<Kind::index>& inside, double least) {
+double read_eta(const Object& object, const Property<double>& inside, double least) {
   const double eta = object[inside] / object[kExtIor];
-  if (!(eta >= least && eta <= kMaxEta)) {
-    object.fail(inside, fmt::format("{:g} times ext_ior: must lie between {:g} and {:g}", eta,
-                                    least, kMaxEta));
-  }
+  object.require(eta >= least && eta <= kMaxEta, inside,
+                 "{:g} times ext_ior: must lie between {:g} and {:g}", eta, least, kMaxEta);
   return eta;
 }
 
-ReadBsdf read_dielectric(const Object& object, BsdfReader&) {
+void read_dielectric(const Object& object, Reading& in) {
   const double eta = read_eta(object, kGlassIor, 1 / kMaxEta);
-  return {SmoothDielectric{{static_cast<float>(eta)}}, object[kExtIor], object[kGlassIor]};
+  in.add_bsdf(SmoothDielectric{{static_cast<float>(eta)}}, {object[kExtIor], object[kGlassIor]});
 }
 
-ReadBsdf read_rough_dielectric(const Object& object, BsdfReader&) {
+void read_rough_dielectric(const Object& object, Reading& in) {
   const double eta = read_eta(object, kGlassIor, 1 / kMaxEta);
-  if (!(std::abs(eta - 1) >= 1e-3)) {
-    object.fail(kGlassIor,
-                "must differ from ext_ior by a thousandth: normals cannot be told otherwise");
+  object.require(std::abs(eta - 1) >= 1e-3, kGlassIor,
+                 "must differ from ext_ior by a thousandth: normals cannot be told otherwise");
+  in.add_bsdf(GgxDielectric{read_ggx(object), {static_cast<float>(eta)}},
+              {object[kExtIor], object[kGlassIor]});
+}
+
+/// BSDFs in another, and what becomes of that with them.
+struct Children {
+  std::vector<std::uint32_t> indices;
+  BsdfContext context;
+};
+
+/// Reads <bsdf>s, and finds those that <ref>s name above them.
+Children read_children(const std::vector<Node>& nodes, Reading& in) {
+  Children children;
+  for (const Node node : nodes) {
+    const bool is_ref = node.name() == std::string_view("ref");
+    const std::uint32_t child = is_ref ? resolve_bsdf(node, in, " above it") : read_bsdf(node, in);
+    children.indices.push_back(child);
+    children.context.depth = std::max(children.context.depth, in.contexts[child].depth + 1);
   }
-  return {GgxDielectric{read_ggx(object), {static_cast<float>(eta)}}, object[kExtIor],
-          object[kGlassIor]};
+  return children;
 }
 
-ReadBsdf read_phong(const Object& object, BsdfReader&) {
-  return {
-      ModifiedPhong{rgb_cast<float>(object[kReflectance]), static_cast<float>(object[kExponent])}};
-}
-
-ReadBsdf read_clear_coat(const Object& object, BsdfReader&) {
-  const double eta = read_eta(object, kCoatIor, 1.01);
-  return {ClearCoat(static_cast<float>(eta), static_cast<float>(object[kAlpha]),
-                    rgb_cast<float>(object[kReflectance]))};
-}
-
-ReadBsdf read_two_sided(const Object& object, BsdfReader& bsdfs) {
-  const std::vector<std::uint32_t> sides = bsdfs.read_nested(object[kSides]);
+void read_two_sided(const Object& object, Reading& in) {
+  const auto [sides, context] = read_children(object[kSides], in);
   for (const std::uint32_t side : sides) {
-    if (bsdfs[side].parts.transmission) object.fail("may not hold a BSDF that light passes");
+    if (!in.bsdfs->parts(side).transmission) continue;
+    fail(object.node(), "may not hold a BSDF that light passes");
   }
-  return {TwoSided{sides.front(), sides.back()}};
+  in.add_bsdf(TwoSided{sides.front(), sides.back()}, context);
 }
 
-ReadBsdf read_mixture(const Object& object, BsdfReader& bsdfs) {
-  const std::vector<std::uint32_t> parts = bsdfs.read_nested(object[kPair]);
-  return {Mixture{parts[0], parts[1], static_cast<float>(object[kWeight])}};
+void read_mixture(const Object& object, Reading& in) {
+  const auto [parts, context] = read_children(object[kPair], in);
+  in.add_bsdf(Mixture{parts[0], parts[1], static_cast<float>(object[kWeight])}, context);
 }
 
-ReadBsdf read_thin_film(const Object& object, BsdfReader& bsdfs) {
-  const ReadBsdf& base = bsdfs[bsdfs.read_nested(object[kBase]).front()];
-  const double least = std::min(base.ext_ior, base.int_ior), most = kMaxEta * base.ext_ior;
-  if (!(object[kFilmIor] >= least && object[kFilmIor] <= most)) {
-    object.fail(kFilmIor, fmt::format("must lie between {:g}, the smaller index beside the film, "
-                                      "and {:g}",
-                                      least, most));
-  }
-  const FilmLayer film{static_cast<float>(object[kThickness] * base.ext_ior),
-                       static_cast<float>(object[kFilmIor] / base.ext_ior)};
-  const auto coat = [&](const auto& b) -> ReadBsdf {
+void read_thin_film(const Object& object, Reading& in) {
+  const std::uint32_t base = read_children(object[kBase], in).indices.front();
+  const BsdfContext& beside = in.contexts[base];
+  const double least = std::min(beside.ext_ior, beside.int_ior), most = kMaxEta * beside.ext_ior;
+  object.require(object[kFilmIor] >= least && object[kFilmIor] <= most, kFilmIor,
+                 "must lie between {:g}, the smaller index beside the film, and {:g}", least, most);
+  const FilmLayer film{static_cast<float>(object[kThickness] * beside.ext_ior),
+                       static_cast<float>(object[kFilmIor] / beside.ext_ior)};
+  const auto coat = [&](const auto& b) -> Bsdf {
     if constexpr (requires { ThinFilm{b, film}; }) {
-      return {ThinFilm{b, film}};
+      return ThinFilm{b, film};
     } else {
-      object.fail("covers a conductor, roughconductor, dielectric or roughdielectric");
+      fail(object.node(), "covers a conductor, roughconductor, dielectric or roughdielectric");
     }
   };
-  return std::visit(coat, base.bsdf);
+  in.add_bsdf(std::visit(coat, in.bsdfs->alternative(base)));
 }
 
 }  // namespace
 
-const ObjectTypes<ReadBsdf, BsdfReader&> kBsdfTypes = {
-    {"diffuse", {kReflectance}, read_diffuse},
-    {"conductor", {kMaterial, kEta, kK}, read_conductor},
+const Named<ObjectType> kBsdfTypes = {
+    {"diffuse",
+     {{kReflectance},
+      [](const Object& object, Reading& in) {
+        in.add_bsdf(Lambertian{read_reflectance(object)});
+      }}},
+    {"conductor",
+     {{kMaterial, kEta, kK},
+      [](const Object& object, Reading& in) { in.add_bsdf(SmoothConductor{read_metal(object)}); }}},
     {"roughconductor",
-     {kDistribution, kAlpha, kAlphaU, kAlphaV, kMaterial, kEta, kK},
-     read_rough_conductor},
-    {"dielectric", {kGlassIor, kExtIor}, read_dielectric},
+     {{kDistribution, kAlpha, kAlphaU, kAlphaV, kMaterial, kEta, kK},
+      [](const Object& object, Reading& in) {
+        in.add_bsdf(GgxConductor{read_ggx(object), read_metal(object)});
+      }}},
+    {"dielectric", {{kGlassIor, kExtIor}, read_dielectric}},
     {"roughdielectric",
-     {kDistribution, kAlpha, kAlphaU, kAlphaV, kGlassIor, kExtIor},
-     read_rough_dielectric},
-    {"twosided", {kSides}, read_two_sided},
-    {"blendbsdf", {kWeight, kPair}, read_mixture},
-    {"clearcoat", {kReflectance, kAlpha, kCoatIor, kExtIor}, read_clear_coat},
-    {"thinfilm", {kThickness, kFilmIor, kBase}, read_thin_film},
-    {"phong", {kReflectance, kExponent}, read_phong},
+     {{kDistribution, kAlpha, kAlphaU, kAlphaV, kGlassIor, kExtIor}, read_rough_dielectric}},
+    {"twosided", {{kSides}, read_two_sided}},
+    {"blendbsdf", {{kWeight, kPair}, read_mixture}},
+    {"clearcoat",
+     {{kReflectance, kAlpha, kCoatIor, kExtIor},
+      [](const Object& object, Reading& in) {
+        const double eta = read_eta(object, kCoatIor, 1.01);
+        in.add_bsdf(ClearCoat(static_cast<float>(eta), static_cast<float>(object[kAlpha]),
+                              read_reflectance(object)));
+      }}},
+    {"thinfilm", {{kThickness, kFilmIor, kBase}, read_thin_film}},
+    {"phong",
+     {{kReflectance, kExponent},
+      [](const Object& object, Reading& in) {
+        in.add_bsdf(ModifiedPhong{read_reflectance(object), static_cast<float>(object[kExponent])});
+      }}},
 };
 
-std::uint32_t BsdfReader::read(const Element& element) {
+std::uint32_t read_bsdf(Node node, Reading& in) {
   constexpr int kMaxDepth = 8;  // a mixture of mixtures asks 2^depth BSDFs for every answer
-  const std::uint32_t index = add(kBsdfTypes.read(element, *this));
-  if (bsdfs_[index].depth > kMaxDepth) {
-    element.fail(fmt::format("BSDFs are nested deeper than {}", kMaxDepth));
+  read_object(node, kBsdfTypes, in);
+  if (in.contexts.back().depth > kMaxDepth) {
+    refuse(node, "BSDFs are nested deeper than {}", kMaxDepth);
   }
-  if (element.has("id")) by_id_.emplace(element.text("id"), index);
+  const auto index = static_cast<std::uint32_t>(in.contexts.size() - 1);
+  if (node.attribute("id")) in.bsdfs_by_id.emplace(attribute(node, "id"), index);
   return index;
 }
 
-std::vector<std::uint32_t> BsdfReader::read_nested(const std::vector<Element>& elements) {
-  std::vector<std::uint32_t> indices;
-  for (const Element& element : elements) {
-    indices.push_back(element.tag() == "ref" ? resolve(element, " above it") : read(element));
+std::uint32_t resolve_bsdf(Node ref, const Reading& in, const char* where) {
+  allow_only_attributes(ref, {"id", "name"});
+  const std::string id = attribute(ref, "id");
+  const auto read = in.bsdfs_by_id.find(id);
+  if (read != in.bsdfs_by_id.end()) return read->second;
+  if (const auto named = in.ids.find(id); named != in.ids.end()) {
+    const std::string tag = tag_of(named->second);
+    if (tag == "<bsdf>") refuse(ref, "{} is the id of the <bsdf> around it", in_quotes(id));
+    refuse(ref, "id {} is a {}, not a <bsdf>", in_quotes(id), tag);
   }
-  return indices;
-}
-
-std::uint32_t BsdfReader::add(ReadBsdf read) {
-  std::visit(
-      [&]<class B>(const B& bsdf) {
-        if constexpr (NestedBsdf<B>) {
-          for (const std::uint32_t child : bsdf.children()) {
-            read.parts = read.parts | bsdfs_[child].parts;
-            read.depth = std::max(read.depth, bsdfs_[child].depth + 1);
-          }
-        } else {
-          read.parts = bsdf.parts();
-        }
-      },
-      read.bsdf);
-  bsdfs_.push_back(std::move(read));
-  return static_cast<std::uint32_t>(bsdfs_.size() - 1);
-}
-
-std::uint32_t BsdfReader::fallback() {
-  if (!fallback_) fallback_ = add({Lambertian{{0.5f, 0.5f, 0.5f}}});
-  return *fallback_;
-}
-
-std::shared_ptr<const BsdfSet> BsdfReader::take() {
-  std::vector<Bsdf> bsdfs;
-  for (ReadBsdf& read : bsdfs_) bsdfs.push_back(std::move(read.bsdf));
-  return make_bsdfs(std::move(bsdfs));
-}
-
-std::uint32_t BsdfReader::resolve(const Element& ref, const char* where) const {
-  ref.allow_attributes({"id", "name"});
-  ref.allow_no_children();
-  const std::string id = ref.text("id");
-  const auto found = by_id_.find(id);
-  if (found != by_id_.end()) return found->second;
-  const std::string tag = ref.file().tag_of_id(id);
-  if (tag == "bsdf") ref.fail(fmt::format("{} is the id of the <bsdf> around it", in_quotes(id)));
-  if (!tag.empty()) ref.fail(fmt::format("id {} is a <{}>, not a <bsdf>", in_quotes(id), tag));
-  std::vector<std::string> known;
-  for (const auto& [name, index] : by_id_) known.push_back(name);
-  const std::string hint = name_hint(id, known);
-  ref.fail(fmt::format("no <bsdf> has the id {}{}{}{}", in_quotes(id), where,
-                       hint.empty() ? "" : "; ", hint));
+  refuse_name(ref, fmt::format("no <bsdf> has the id {}{}", in_quotes(id), where), id,
+              names_of(in.bsdfs_by_id));
 }
 
 }  // namespace plumbline::renderer

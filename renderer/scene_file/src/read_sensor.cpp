@@ -1,45 +1,44 @@
-#include <fmt/format.h>
-
 #include <cmath>
 #include <string>
 
-#include "read_parts.h"
+#include "parts.h"
 
 namespace plumbline::renderer {
 namespace {
 
-constexpr Property<Kind::integer> kMaxDepth{"max_depth", "-1",
-                                            at_least(-1, ", which is unlimited")};
-constexpr Property<Kind::integer> kRrDepth{"rr_depth", "5", at_least(1)};
-constexpr Property<Kind::number> kFov{
-    "fov", kRequired, {.low = 0, .high = 180, .more = " degrees", .open = true}};
-constexpr Property<Kind::string> kFovAxis{"fov_axis", "x",
-                                          one_of("x", "y", "diagonal", "smaller", "larger")};
-constexpr Property<Kind::nested> kFilm{"film", kRequired};
-constexpr Property<Kind::nested> kSampler{"sampler", "independent"};
-constexpr Property<Kind::integer> kWidth{"width", "768"};
-constexpr Property<Kind::integer> kHeight{"height", "576"};
-constexpr Property<Kind::string> kPixelFormat{"pixel_format", "rgb", one_of("rgb")};
-constexpr Property<Kind::string> kComponentFormat{"component_format", "float32", one_of("float32")};
-constexpr Property<Kind::nested> kFilter{"rfilter", kRequired};
-constexpr Property<Kind::integer> kSampleCount{"sample_count", "4", at_least(1)};
+const Property kMaxDepth{kInteger, "max_depth", "-1", at_least(-1, ", which is unlimited")};
+const Property kRrDepth{kInteger, "rr_depth", "5", at_least(1)};
+const Property kFov{kFloat, "fov", kRequired,
+                    Range{.low = 0, .high = 180, .more = " degrees", .open = true}};
+const Property kFovAxis{kString, "fov_axis", "x",
+                        one_of({"x", "y", "diagonal", "smaller", "larger"})};
+const Nested kFilm{{"film"}, kRequired, between(1, 1)};
+const Nested kSampler{{"sampler"}, "independent", between(0, 1)};
+const Property kWidth{kInteger, "width", "768"};
+const Property kHeight{kInteger, "height", "576"};
+const Property kPixelFormat{kString, "pixel_format", "rgb", one_of({"rgb"})};
+const Property kComponentFormat{kString, "component_format", "float32", one_of({"float32"})};
+const Nested kFilter{{"rfilter"}, kRequired, between(1, 1)};
+const Property kSampleCount{kInteger, "sample_count", "4", at_least(1)};
 
-IntegratorDescription read_path(const Object& object) {
-  return {object[kMaxDepth], object[kRrDepth]};
+void read_path(const Object& object, Reading& in) {
+  in.scene.integrator = {object[kMaxDepth], object[kRrDepth]};
 }
 
-IntegratorDescription read_direct(const Object&) { return {.max_depth = 2}; }
+void read_direct(const Object& /*object*/, Reading& in) { in.scene.integrator = {.max_depth = 2}; }
 
-int read_sampler(const Object& object) { return object[kSampleCount]; }
+void read_sampler(const Object& object, Reading& in) {
+  in.scene.samples_per_pixel = object[kSampleCount];
+}
 
-void read_filter(const Object&) {}  // each pixel averages its own square
+void read_filter(const Object&, Reading&) {}  // each pixel averages its own square
 
-FilmSize read_film(const Object& object) {
+void read_film(const Object& object, Reading& in) {
   const FilmSize size{object[kWidth], object[kHeight]};
   const std::string wrong = film_size_error(size);
-  if (!wrong.empty()) object.fail(kWidth, wrong);
-  kFilterTypes.read(object[kFilter].front());
-  return size;
+  object.require(wrong.empty(), kWidth, "{}", wrong);
+  read_object(object[kFilter].front(), kFilterTypes, in);
+  if (!in.size) in.size = size;
 }
 
 /// tan of half the horizontal field of view, from the one along `axis`.
@@ -56,46 +55,42 @@ double horizontal_tangent(const std::string& axis, double tangent, double aspect
   return tangent;
 }
 
-void read_perspective(const Object& object, std::optional<FilmSize> size, SceneDescription& scene) {
+void read_perspective(const Object& object, Reading& in) {
   const Affine& to_world = object[kToWorld];
-  if (!is_rigid(to_world)) {
-    object.fail(kToWorld, "a camera may be turned and moved, not scaled or sheared");
+  object.require(is_rigid(to_world), kToWorld,
+                 "a camera may be turned and moved, not scaled or sheared");
+  object.require(is_in_range(to_world.origin), kToWorld, "the camera is too far away");
+  read_object(object[kFilm].front(), kFilmTypes, in);
+  if (object.has(kSampler)) {
+    read_object(object[kSampler].front(), kSamplerTypes, in);
+  } else {
+    in.scene.samples_per_pixel = parse_number<int>(object.node(), kSampleCount.absent);
   }
-  if (!is_in_range(to_world.origin)) object.fail(kToWorld, "the camera is too far away");
-  const FilmSize in_file = kFilmTypes.read(object[kFilm].front());
-  const FilmSize used = size.value_or(in_file);
-  const std::vector<Element>& samplers = object[kSampler];
-  scene.samples_per_pixel =
-      samplers.empty() ? object.absent(kSampleCount) : kSamplerTypes.read(samplers.front());
   const double tangent = std::tan(object[kFov] * pi<double>() / 360);
-  scene.camera = {.origin = to_world.origin,
-                  .left = normalize(to_world.x),
-                  .up = normalize(to_world.y),
-                  .forward = normalize(to_world.z),
-                  .tan_half_fov_x = horizontal_tangent(
-                      object[kFovAxis], tangent, static_cast<double>(used.width) / used.height),
-                  .width = used.width,
-                  .height = used.height};
+  const double aspect = static_cast<double>(in.size->width) / in.size->height;
+  in.scene.camera = {.origin = to_world.origin,
+                     .left = normalize(to_world.x),
+                     .up = normalize(to_world.y),
+                     .forward = normalize(to_world.z),
+                     .tan_half_fov_x = horizontal_tangent(object[kFovAxis], tangent, aspect),
+                     .width = in.size->width,
+                     .height = in.size->height};
 }
 
 }  // namespace
 
-const ObjectTypes<IntegratorDescription> kIntegratorTypes = {
-    {"path", {kMaxDepth, kRrDepth}, read_path},
-    {"direct", {}, read_direct},
+const Named<ObjectType> kIntegratorTypes = {
+    {"path", {{kMaxDepth, kRrDepth}, read_path}},
+    {"direct", {{}, read_direct}},
 };
-
-const ObjectTypes<void, std::optional<FilmSize>, SceneDescription&> kSensorTypes = {
-    {"perspective", {kFov, kFovAxis, kToWorld, kFilm, kSampler}, read_perspective},
+const Named<ObjectType> kSensorTypes = {
+    {"perspective", {{kFov, kFovAxis, kToWorld, kFilm, kSampler}, read_perspective}},
 };
-
-const ObjectTypes<FilmSize> kFilmTypes = {
-    {"hdrfilm", {kWidth, kHeight, kPixelFormat, kComponentFormat, kFilter}, read_film},
+const Named<ObjectType> kFilmTypes = {
+    {"hdrfilm", {{kWidth, kHeight, kPixelFormat, kComponentFormat, kFilter}, read_film}},
 };
-
-const ObjectTypes<void> kFilterTypes = {{"box", {}, read_filter}};
-
-const ObjectTypes<int> kSamplerTypes = {{"independent", {kSampleCount}, read_sampler}};
+const Named<ObjectType> kFilterTypes = {{"box", {{}, read_filter}}};
+const Named<ObjectType> kSamplerTypes = {{"independent", {{kSampleCount}, read_sampler}}};
 
 std::string film_size_error(const FilmSize& size) {
   constexpr int kMaxSide = 1 << 16;

@@ -1,48 +1,28 @@
 #include "transform.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "named.h"
-#include "values.h"
-
 namespace plumbline::renderer {
 namespace {
 
-bool is_finite(const Vec3d& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-/// Unit vector; a zero vector is the element's error.
-Vec3d direction(const Element& element, const Vec3d& v, const char* what) {
-  const double norm = length(v);
-  if (!(norm > 0 && std::isfinite(norm))) {
-    element.fail(fmt::format("{}: {}", element.label(), what));
-  }
-  return v / norm;
-}
-
-Affine read_translate(const Element& element) {
-  element.allow_attributes({"x", "y", "z", "value"});
+Affine read_translate(Node at) {
   Affine result;
-  result.origin = parse_xyz(element, 0);
+  result.origin = parse_vector(at, vector_text(at, "0"));
   return result;
 }
 
-Affine read_scale(const Element& element) {
-  element.allow_attributes({"x", "y", "z", "value"});
-  const Vec3d s = parse_xyz(element, 1);
+Affine read_scale(Node at) {
+  const Vec3d s = parse_vector(at, vector_text(at, "1"));
   return {{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}, {}};
 }
 
 /// Right-handed rotation about an axis through the origin (Rodrigues).
-Affine read_rotate(const Element& element) {
-  element.allow_attributes({"x", "y", "z", "value", "angle"});
-  const Vec3d axis = direction(element, parse_xyz(element, 0), "the axis has no direction");
-  const double angle = parse_number(element, element.text("angle")) * pi<double>() / 180;
+Affine read_rotate(Node at) {
+  const Vec3d axis =
+      unit_vector(at, parse_vector(at, vector_text(at, "0")), "the axis has no direction");
+  const double angle = parse_number<double>(at, attribute(at, "angle")) * pi<double>() / 180;
   const double c = std::cos(angle), s = std::sin(angle);
   const auto turned = [&](const Vec3d& v) {
     return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
@@ -51,62 +31,64 @@ Affine read_rotate(const Element& element) {
 }
 
 /// 3×3 or 4×4, row by row.
-Affine read_matrix(const Element& element) {
-  element.allow_attributes({"value"});
-  const std::vector<double> m = parse_numbers(element, element.text("value"));
+Affine read_matrix(Node at) {
+  const std::vector<double> m = parse_numbers(at, attribute(at, "value"));
   if (m.size() == 9) return {{m[0], m[3], m[6]}, {m[1], m[4], m[7]}, {m[2], m[5], m[8]}, {}};
-  if (m.size() != 16) {
-    element.fail(fmt::format("<matrix> needs 9 or 16 numbers, not {}", m.size()));
-  }
+  if (m.size() != 16) refuse(at, "<matrix> needs 9 or 16 numbers, not {}", m.size());
   if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
-    element.fail("<matrix> must have the last row 0 0 0 1: projections are not supported");
+    refuse(at, "<matrix> must have the last row 0 0 0 1: projections are not supported");
   }
   return {{m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}, {m[3], m[7], m[11]}};
 }
 
 /// To world from a camera at `origin` that looks along +z towards `target`, +x to its left.
-Affine read_lookat(const Element& element) {
-  element.allow_attributes({"origin", "target", "up"});
-  const Vec3d origin = parse_triple(element, "origin");
-  const Vec3d forward = direction(element, parse_triple(element, "target") - origin,
-                                  "\"target\" and \"origin\" are the same point");
-  const Vec3d up = direction(element, parse_triple(element, "up"), "\"up\" has no direction");
-  const Vec3d left = cross(up, forward);
-  if (!(length(left) > kShapeTolerance)) {
-    element.fail("<lookat>: \"up\" points along the line of sight");
-  }
+Affine read_lookat(Node at) {
+  const auto three = [&](const char* name) -> Vec3d {
+    const std::vector<double> n = parse_numbers(at, attribute(at, name));
+    if (n.size() != 3) fail(at, "\"{}\" needs three numbers, not {}", name, n.size());
+    return {n[0], n[1], n[2]};
+  };
+  const Vec3d origin = three("origin");
+  const Vec3d forward =
+      unit_vector(at, three("target") - origin, "\"target\" and \"origin\" are the same point");
+  const Vec3d left = cross(unit_vector(at, three("up"), "\"up\" has no direction"), forward);
+  if (!(length(left) > kShapeTolerance)) fail(at, "\"up\" points along the line of sight");
   return {normalize(left), cross(forward, normalize(left)), forward, origin};
 }
 
-Affine read_operation(const Element& element) {
-  static const Named<Affine (*)(const Element&)> operations = {{"translate", read_translate},
-                                                               {"rotate", read_rotate},
-                                                               {"scale", read_scale},
-                                                               {"matrix", read_matrix},
-                                                               {"lookat", read_lookat}};
-  element.allow_no_children();
-  const std::string tag = element.tag();
-  if (const auto* read = operations.find(tag)) return (*read)(element);
-  element.fail(fmt::format("<{}> is not a transform operation; {}", tag.substr(0, 60),
-                           operations.hint(tag)));
-}
+struct Operation {
+  std::vector<std::string> attributes;
+  Affine (*read)(Node at);
+};
+
+const Named<Operation> kOperations = {
+    {"translate", {{"x", "y", "z", "value"}, read_translate}},
+    {"rotate", {{"x", "y", "z", "value", "angle"}, read_rotate}},
+    {"scale", {{"x", "y", "z", "value"}, read_scale}},
+    {"matrix", {{"value"}, read_matrix}},
+    {"lookat", {{"origin", "target", "up"}, read_lookat}},
+};
 
 }  // namespace
 
-Affine read_transform(const Element& element) {
+Affine parse_transform(Node at, std::string_view text, const Range& /*range*/) {
+  if (!text.empty()) return {};  // the default
   Affine result;
-  for (const Element& operation : element.children()) {
-    result = read_operation(operation) * result;
+  for (const Node node : at.children()) {
+    const Operation& operation =
+        look_up(kOperations, node.name(), node, tag_of(node) + " is not a transform operation");
+    allow_only_attributes(node, operation.attributes);
+    result = operation.read(node) * result;
   }
-  const double determinant = result.determinant();
-  if (!is_finite(result.x) || !is_finite(result.y) || !is_finite(result.z) ||
-      !is_finite(result.origin) || !std::isfinite(determinant)) {
-    element.fail(fmt::format("{} overflows", element.label()));
+  const auto& [x, y, z] = result.origin;
+  const double determinant = result.determinant();  // not finite if a column is not
+  if (!std::isfinite(determinant) || !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
+    refuse(at, "{} overflows", label(at));
   }
   // Relative to the longest that the columns allow (Hadamard): free of the scene's scale.
   const double largest = length(result.x) * length(result.y) * length(result.z);
   if (!(std::abs(determinant) > 1e-12 * largest)) {
-    element.fail(fmt::format("{} is singular: it flattens space", element.label()));
+    refuse(at, "{} is singular: it flattens space", label(at));
   }
   return result;
 }
@@ -119,9 +101,14 @@ bool same_length(const Vec3d& a, const Vec3d& b) {
   return std::abs(length(a) - length(b)) <= kShapeTolerance * length(a);
 }
 
+bool is_orthogonal(const Affine& m) {
+  return perpendicular(m.x, m.y) && perpendicular(m.y, m.z) && perpendicular(m.z, m.x);
+}
+
 bool is_rigid(const Affine& m) {
-  return perpendicular(m.x, m.y) && perpendicular(m.y, m.z) && perpendicular(m.z, m.x) &&
-         same_length({1, 0, 0}, m.x) && same_length({1, 0, 0}, m.y) && same_length({1, 0, 0}, m.z);
+  const Vec3d unit{1, 0, 0};
+  return is_orthogonal(m) && same_length(unit, m.x) && same_length(unit, m.y) &&
+         same_length(unit, m.z);
 }
 
 }  // namespace plumbline::renderer

@@ -2,7 +2,7 @@
 
 #include <plumbline/renderer/core/math.h>
 
-#include "scene_file.h"
+#include "node.h"
 
 namespace plumbline::renderer {
 
@@ -22,9 +22,10 @@ struct Affine {
 };
 
 /// The operations of a <transform>, the first in the file applied first.
+/// The identity where the text, a default, says so.
 ///
-/// @throws InputError for an unknown operation, and for a result that is singular or not finite
-Affine read_transform(const Element& element);
+/// @throws Refusal for an unknown operation, and for a result that is singular or not finite
+Affine parse_transform(Node at, std::string_view text, const Range& range);
 
 /// What tells lengths and angles apart from rounded ones: matrices are written with six digits.
 inline constexpr double kShapeTolerance = 1e-5;
@@ -34,6 +35,9 @@ bool perpendicular(const Vec3d& a, const Vec3d& b);
 
 /// Whether two vectors are equally long to kShapeTolerance.
 bool same_length(const Vec3d& a, const Vec3d& b);
+
+/// Whether a map keeps the axes perpendicular: no shear.
+bool is_orthogonal(const Affine& m);
 
 /// Whether a map only turns, mirrors and moves: no scale, no shear.
 bool is_rigid(const Affine& m);

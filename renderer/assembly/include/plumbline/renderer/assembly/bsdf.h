@@ -106,6 +106,10 @@ class BsdfSet final : public BsdfTable {
   ///         come first, so that no chain of references can close
   explicit BsdfSet(std::vector<Bsdf> bsdfs);
 
+  /// Adds a BSDF, whose children are there already.
+  /// @return its index
+  std::uint32_t add(Bsdf bsdf);
+
   BsdfRef operator[](std::uint32_t i) const { return {*this, i}; }
   const Bsdf& alternative(std::uint32_t i) const { return bsdfs_[i]; }
 

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <plumbline/renderer/assembly/bsdf.h>
+#include <plumbline/renderer/assembly/description.h>
+
+#include "object.h"
+
+/// The parts of a scene file: the types of each element, and the scene that they are put into.
+namespace plumbline::renderer {
+
+/// What those that nest a BSDF need to know of it.
+struct BsdfContext {
+  double ext_ior = 1;     ///< index outside
+  double int_ior = 1e30;  ///< index inside, of a dielectric
+  int depth = 0;          ///< levels of BSDFs below it
+};
+
+/// A scene as far as it has been read.
+struct Reading {
+  const std::map<std::string, Node>& ids;  ///< of the file
+  std::optional<FilmSize> size;            ///< in place of the file's
+  SceneDescription scene = {};
+  std::shared_ptr<BsdfSet> bsdfs = std::make_shared<BsdfSet>();  ///< nested ones before their nests
+  std::vector<BsdfContext> contexts = {};                        ///< of each BSDF
+  std::map<std::string, std::uint32_t> bsdfs_by_id = {};
+  std::optional<std::uint32_t> default_bsdf = {};             ///< of shapes without one
+  std::vector<std::pair<std::size_t, Node>> references = {};  ///< shapes with their <ref>s
+
+  /// @return its index
+  std::uint32_t add_bsdf(Bsdf bsdf, const BsdfContext& context = {}) {
+    contexts.push_back(context);
+    return bsdfs->add(std::move(bsdf));
+  }
+};
+
+// What a scene file may hold, by element: every type with its properties and its reader.
+extern const Named<ObjectType> kIntegratorTypes, kSensorTypes, kFilmTypes, kFilterTypes,
+    kSamplerTypes, kBsdfTypes, kShapeTypes, kAreaEmitterTypes, kSceneEmitterTypes;
+
+inline const Property kFilename{kString, "filename", kRequired};
+inline const Property kToWorld{kTransform, "to_world", "identity"};
+
+/// The file that an object names, from the scene file's folder.
+std::filesystem::path file_of(const Object& object, const Reading& in);
+
+/// @return why a film of that size is refused; empty if it is not
+std::string film_size_error(const FilmSize& size);
+
+/// Reads a <bsdf> and those in it.
+/// @return its index
+std::uint32_t read_bsdf(Node node, Reading& in);
+
+/// Index of the BSDF that a <ref> names, among those read.
+///
+/// @param where  for the message: where it was looked for
+/// @throws Refusal if there is none with its id
+std::uint32_t resolve_bsdf(Node ref, const Reading& in, const char* where = "");
+
+/// Reads a <shape> with what it holds. Its <ref> to a BSDF may stand before that: it is resolved
+/// when all is read.
+void read_shape(Node node, Reading& in);
+
+/// The triangles of the obj file that a shape names, moved to world space.
+///
+/// @throws InputError "file:line: why" for what is wrong in the file; else it is the shape's error
+MeshShape read_mesh(const Object& shape, const Reading& in);
+
+/// Largest coordinate and length [m]; 1/kMaxLength is the smallest length. Squares of both are
+/// normal numbers in single precision.
+inline constexpr double kMaxLength = 1e18;
+
+/// Whether single precision can work with a point.
+bool is_in_range(const Vec3d& point);
+
+}  // namespace plumbline::renderer
