@@ -16,9 +16,9 @@ namespace {
 /// Stable counting sort of 0 … count − 1 by key, into `order`.
 class CountingSort {
  public:
-  /// @param keys  each < kinds
-  void sort(const IndexLanes& keys, std::size_t count, std::size_t kinds) {
-    ends_.assign(kinds, 0);
+  /// @param keys  each < bins
+  void sort(const IndexLanes& keys, std::size_t count, std::size_t bins) {
+    ends_.assign(bins, 0);
     std::uint32_t* __restrict ends = ends_.data();
     for (std::size_t i = 0; i < count; ++i) ++ends[keys[i]];
     std::uint32_t before = 0;
@@ -189,7 +189,7 @@ class Batch final : public PixelSampler {
       s_.throughput.set(i, {1, 1, 1});
       s_.scale[i] = 1;
       s_.path[i] = static_cast<std::uint32_t>(i);
-      s_.next_kind[i] = 0;
+      s_.next_bin[i] = 0;
       radiance_[i] = {};
     }
     launch_next_rays();
@@ -197,8 +197,8 @@ class Batch final : public PixelSampler {
 
   /// Rays that point alike next to each other.
   void launch_next_rays() {
-    rays_.sort(s_.next_kind, s_.count, kKinds);
-    flying_ = rays_.end(kUnblocked);
+    rays_.sort(s_.next_bin, s_.count, kBins);
+    flying_ = rays_.begin(kOctants);
   }
 
   bool samples_light() const { return techniques_.draw_light > 0; }
@@ -332,9 +332,10 @@ class Batch final : public PixelSampler {
   }
 
   void cast_shadows() {
-    shadows_.sort(s_.shadow_kind, s_.count, kKinds);
+    shadows_.sort(s_.shadow_bin, s_.count, kBins);
     const IndexLanes& order = shadows_.order();
-    const std::size_t count = shadows_.begin(kUnblocked), lit = shadows_.end(kUnblocked);
+    const std::size_t count = shadows_.begin(kOctants);
+    const std::size_t lit = shadows_.end(bin_of(Uncast::unblocked));
     counters.shadow_rays += lit;
     packets_.occluded(s_.shadow, s_.shadow_t_max, order, count, blocked_);
     for (std::size_t k = 0; k < lit; ++k) {

@@ -79,12 +79,12 @@ PLUMBLINE_KERNEL void aim_shadow_rays(Shading& s) {
   }
 }
 
-void choose_kinds(Shading& s) {
+void choose_bins(Shading& s) {
   for (std::size_t k = 0; k < s.count; ++k) {
     const bool lit = (s.pdf_light[k] > 0 || s.mass[k] > 0) && !is_black(s.f[k]);
-    s.shadow_kind[k] = !lit                    ? kDropped
-                       : s.shadow_t_max[k] > 0 ? octant(s.shadow.direction[k])
-                                               : kUnblocked;
+    s.shadow_bin[k] = !lit                    ? bin_of(Uncast::dropped)
+                      : s.shadow_t_max[k] > 0 ? octant(s.shadow.direction[k])
+                                              : bin_of(Uncast::unblocked);
   }
 }
 
@@ -101,7 +101,7 @@ void weigh_lights(const PathOptions& options, Shading& s) {
     weigh(s, n_bsdf, [&](float a, float b) { return mis_weight(h, a, b); });
   }
   aim_shadow_rays(s);
-  choose_kinds(s);
+  choose_bins(s);
 }
 
 PLUMBLINE_KERNEL void apply_samples(Shading& s) {
@@ -123,7 +123,7 @@ PLUMBLINE_KERNEL void go_on(Shading& s) {
     const Vec3f direction = Frame<float>(s.normal[k]).to_world(s.wi[k]);
     s.next.direction.set(k, direction);
     s.next.origin.set(k, hit.origin_towards(direction));
-    s.next_kind[k] = is_black(s.throughput[k]) ? kDropped : octant(direction);
+    s.next_bin[k] = is_black(s.throughput[k]) ? bin_of(Uncast::dropped) : octant(direction);
   }
 }
 

@@ -57,7 +57,9 @@ struct HitLanes {
   IndexLanes bsdf, light;
 };
 
-/// Order in which rays walk the tree alike: the signs of their direction, in [0, 8).
+inline constexpr std::uint32_t kOctants = 8;
+
+/// Order in which rays walk the tree alike: the signs of their direction, in [0, kOctants).
 inline std::uint32_t octant(const Vec3f& d) {
   return (d.x < 0 ? 1u : 0u) | (d.y < 0 ? 2u : 0u) | (d.z < 0 ? 4u : 0u);
 }

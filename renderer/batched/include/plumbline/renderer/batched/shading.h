@@ -23,17 +23,27 @@ struct Shading {
   Lanes<float> cosine, pdf_bsdf;  // of shadow.direction
   RgbLanes contribution;
   Lanes<float> shadow_t_max;
-  IndexLanes shadow_kind;   // octant, or one of the two below
+  IndexLanes shadow_bin;    // octant of a ray to be cast, or bin_of what stands for it
   Vec3Lanes wi;             // local
   RgbLanes weight;          // of the BSDF sample; black: none
   Lanes<float> pdf_w;       // of a density
   Lanes<float> atom_mass;   // of an atom; 0 for a density
   Lanes<float> refraction;  // radiance_scale of the sample
   RayLanes next;
-  IndexLanes next_kind;  // octant, or kDropped
+  IndexLanes next_bin;  // likewise
 };
 
-inline constexpr std::uint32_t kUnblocked = 8, kDropped = 9, kKinds = 10;
+/// Why a ray is not cast.
+enum class Uncast : std::uint32_t {
+  unblocked,  ///< nothing can stand in the way of its light
+  dropped     ///< nothing comes of it
+};
+
+/// Rays are sorted into bins: those to be cast by octant, and behind them those that are not.
+inline constexpr std::uint32_t bin_of(Uncast why) {
+  return kOctants + static_cast<std::uint32_t>(why);
+}
+inline constexpr std::uint32_t kBins = kOctants + 2;
 
 /// Each works on the vertices [first, end), which are of one BSDF or of one light.
 struct Run {
