@@ -18,8 +18,7 @@ constexpr std::uint32_t kSamples = 1000;  // 50 in each of 20 iterations
 
 }  // namespace
 
-void add_allocation_options(CLI::App& command, AllocationArguments& arguments,
-                            renderer::Weighting& heuristic) {
+void add_allocation_options(CLI::App& command, AllocationArguments& arguments) {
   CLI::Option* allocation =
       command
           .add_option_function<std::string>(
@@ -27,7 +26,6 @@ void add_allocation_options(CLI::App& command, AllocationArguments& arguments,
               [&](const std::string& text) {
                 arguments.policy =
                     parse_name("--allocation", "policy", renderer::kAllocations, text);
-                heuristic = renderer::Heuristic::balance;
               },
               fmt::format("Direct light by BSDF and light samples, shared out pixel by pixel: {}",
                           fmt::join(names_of(renderer::kAllocations), ", ")))
@@ -55,6 +53,7 @@ void set_allocation(const AllocationArguments& arguments, bool samples_given,
   if (!arguments.policy) return;
   options.allocation = arguments.options;
   options.allocation->policy = *arguments.policy;
+  options.path.heuristic = renderer::Heuristic::balance;
   if (!samples_given) options.samples_per_pixel = kSamples;
   if (*arguments.policy == renderer::Allocation::cost_aware && arguments.options.cost_ratio == 1) {
     throw renderer::InputError(

@@ -18,11 +18,12 @@ struct AllocationArguments {
   std::string share_map;
 };
 
-/// Adds --allocation, which rules out the options that it takes the place of and makes `heuristic`
-/// balance, and the options that need it.
-void add_allocation_options(CLI::App& command, AllocationArguments& arguments,
-                            renderer::Weighting& heuristic);
+/// Adds --allocation, which rules out the options that it takes the place of, and the options that
+/// need it.
+void add_allocation_options(CLI::App& command, AllocationArguments& arguments);
 
+/// Makes the options those of the allocation, if there is one: with the balance heuristic.
+///
 /// @param samples_given  or else the sample count becomes that of the allocation: 1000
 /// @throws renderer::InputError for cost-aware without costs
 void set_allocation(const AllocationArguments& arguments, bool samples_given,

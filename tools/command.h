@@ -21,5 +21,6 @@ void add_list_command(CLI::App& app, Run& run);
 void add_render_command(CLI::App& app, Run& run);
 void add_calibrate_command(CLI::App& app, Run& run);
 void add_compare_command(CLI::App& app, Run& run);
+void add_report_command(CLI::App& app, Run& run);
 
 }  // namespace plumbline::tools

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -17,8 +16,6 @@
 #include <plumbline/renderer/scene_file/nearest_name.h>
 
 #include "command.h"
-#include "output_file.h"
-#include "report_command.h"
 
 namespace plumbline::tools {
 namespace {
@@ -32,35 +29,6 @@ constexpr const char* kExamples = R"(Examples:
 
 Exit codes: 0 fine, 1 a check did not give its expected verdict, 2 bad input or usage,
 3 the machine failed (disk full, out of memory).)";
-
-void add_report_command(CLI::App& app, Run& run) {
-  struct Arguments {
-    std::string results, page;
-    std::uint64_t max_checks = verify::ErrorBudget{}.max_checks;
-  };
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("report", "Make the page of a results directory");
-  command->add_option("results", arguments->results, "Directory with records")
-      ->required()
-      ->type_name("");
-  command->add_option("-o,--output", arguments->page, "HTML file to write")
-      ->required()
-      ->type_name("FILE");
-  command
-      ->add_option("--max-checks", arguments->max_checks,
-                   "Refuse a run of more checks: the error budget is split over so many")
-      ->capture_default_str()
-      ->type_name("N");
-  command->footer("Example:\n  plumbline report build/release/results -o index.html");
-  command->callback([arguments, &run] {
-    run = [arguments] {
-      const OutputFile page(arguments->page);
-      const int exit_code = run_report(arguments->results, page.path(), arguments->max_checks);
-      page.finish();
-      return exit_code;
-    };
-  });
-}
 
 constexpr const char* kOutputLost = "cannot write to the standard output; is it full?";
 

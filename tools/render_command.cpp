@@ -35,22 +35,15 @@ struct RenderArguments {
   std::string scene;
   std::string output;
   std::string json;
-  renderer::Strategy strategy = renderer::Strategy::mis;
-  renderer::Weighting heuristic = renderer::Heuristic::power;
+  renderer::RenderOptions options;  ///< those that need nothing of the scene and of each other
   std::string counts;
   std::optional<double> light_probability;
   std::string roulette;
-  renderer::SamplerType sampler = renderer::SamplerType::independent;
   std::optional<std::uint32_t> replicates;
   renderer::LightSelection light_selection = renderer::LightSelection::uniform;
   AllocationArguments allocation;
   std::optional<std::uint32_t> samples;
-  double seconds = 0;
-  double error = 0;
   std::optional<int> max_depth;
-  std::uint64_t seed = 0;
-  renderer::Backend backend = renderer::Backend::batched;
-  int threads = 0;
   std::string size;
   std::vector<std::string> definitions;
 };
@@ -58,15 +51,18 @@ struct RenderArguments {
 /// Options of one strategy that are given with another would be without effect.
 void require_strategy(const RenderArguments& arguments, renderer::Strategy strategy,
                       const char* option) {
-  if (arguments.strategy == strategy) return;
-  throw renderer::InputError(fmt::format("{} belongs to --strategy {}, not {}", option,
-                                         name(strategy), name(arguments.strategy)));
+  const renderer::Strategy given = arguments.options.path.strategy;
+  if (given == strategy) return;
+  throw renderer::InputError(
+      fmt::format("{} belongs to --strategy {}, not {}", option, name(strategy), name(given)));
 }
 
 /// Into how many scrambles the samples of a pixel are dealt out. Two would do for a variance, but
 /// one of a single degree of freedom.
 std::uint32_t replicates_of(const RenderArguments& arguments) {
-  if (arguments.sampler == renderer::SamplerType::sobol) return arguments.replicates.value_or(4);
+  if (arguments.options.sampler == renderer::SamplerType::sobol) {
+    return arguments.replicates.value_or(4);
+  }
   if (arguments.replicates) {
     throw renderer::InputError("--replicates belongs to --sampler sobol");
   }
@@ -75,9 +71,7 @@ std::uint32_t replicates_of(const RenderArguments& arguments) {
 
 renderer::RenderOptions render_options(const RenderArguments& arguments,
                                        const renderer::SceneDescription& scene) {
-  renderer::RenderOptions options;
-  options.path.strategy = arguments.strategy;
-  options.path.heuristic = arguments.heuristic;
+  renderer::RenderOptions options = arguments.options;
   options.path.max_depth = arguments.max_depth.value_or(scene.integrator.max_depth);
   options.path.rr_depth =
       arguments.roulette.empty() ? scene.integrator.rr_depth : parse_roulette(arguments.roulette);
@@ -94,16 +88,10 @@ renderer::RenderOptions render_options(const RenderArguments& arguments,
     options.path.light_probability = static_cast<float>(c);
   }
   // A limit on time or error stands for the number of samples unless both are given.
-  const bool other_limit = arguments.seconds > 0 || arguments.error > 0;
+  const bool other_limit = options.seconds > 0 || options.relative_error > 0;
   options.samples_per_pixel = arguments.samples.value_or(
       other_limit ? kMaxSamples : static_cast<std::uint32_t>(scene.samples_per_pixel));
-  options.seconds = arguments.seconds;
-  options.relative_error = arguments.error;
-  options.seed = arguments.seed;
-  options.sampler = arguments.sampler;
   options.replicates = replicates_of(arguments);
-  options.backend = arguments.backend;
-  options.threads = arguments.threads;
   set_allocation(arguments.allocation, arguments.samples.has_value(), options);
   return options;
 }
@@ -112,28 +100,27 @@ std::string counted(std::size_t count, const char* noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-std::string strategy_label(const RenderArguments& arguments) {
-  std::string label =
-      arguments.strategy == renderer::Strategy::mis ? "MIS" : std::string(name(arguments.strategy));
-  if (!uses_heuristic(arguments.strategy)) return label;
-  if (arguments.allocation.policy) label += fmt::format(" {}", name(*arguments.allocation.policy));
-  if (!arguments.counts.empty()) label += " " + arguments.counts;
-  if (arguments.light_probability) label += fmt::format(" {}", *arguments.light_probability);
-  return fmt::format("{} ({})", label, describe(arguments.heuristic));
-}
-
 /// The strategy as records name it: "mis", "mis 4,2", "one-sample 0.25".
-std::string strategy_record(const RenderArguments& arguments) {
-  std::string text(name(arguments.strategy));
+std::string strategy_text(const RenderArguments& arguments) {
+  std::string text(name(arguments.options.path.strategy));
   if (arguments.allocation.policy) text += fmt::format(" {}", name(*arguments.allocation.policy));
   if (!arguments.counts.empty()) text += " " + arguments.counts;
   if (arguments.light_probability) text += fmt::format(" {}", *arguments.light_probability);
   return text;
 }
 
+/// The weights' heuristic; empty where the strategy has no use for one.
+std::string heuristic_text(const renderer::RenderOptions& options) {
+  return uses_heuristic(options.path.strategy) ? describe(options.path.heuristic) : std::string();
+}
+
 void print_found(const RenderArguments& arguments, const renderer::SceneDescription& description,
                  const renderer::Scene& scene, const renderer::RenderOptions& options) {
-  fmt::print("{}: {}, {}, {}, {}x{} pixels", strategy_label(arguments),
+  std::string strategy = strategy_text(arguments);
+  if (options.path.strategy == renderer::Strategy::mis) strategy.replace(0, 3, "MIS");
+  const std::string heuristic = heuristic_text(options);
+  fmt::print("{}{}: {}, {}, {}, {}x{} pixels", strategy,
+             heuristic.empty() ? "" : fmt::format(" ({})", heuristic),
              counted(scene.lights().size(), "light"), counted(scene.shape_count(), "shape"),
              counted(description.bsdfs->size(), "BSDF"), description.camera.width,
              description.camera.height);
@@ -155,9 +142,9 @@ reports::RenderRecord make_record(const RenderArguments& arguments,
   const renderer::Rgbd mean = result.film.mean();
   reports::RenderRecord record;
   record.scene = arguments.scene;
-  record.strategy = strategy_record(arguments);
-  if (uses_heuristic(arguments.strategy)) record.heuristic = describe(arguments.heuristic);
-  record.sampler = name(arguments.sampler);
+  record.strategy = strategy_text(arguments);
+  record.heuristic = heuristic_text(options);
+  record.sampler = name(options.sampler);
   record.replicates = options.replicates;
   record.light_selection = name(arguments.light_selection);
   record.samples_per_pixel = result.samples_per_pixel;
@@ -168,13 +155,13 @@ reports::RenderRecord make_record(const RenderArguments& arguments,
   record.rejected = result.counters.rejected;
   record.non_finite = result.film.non_finite();
   record.mean = {mean.r, mean.g, mean.b};
-  record.seed = arguments.seed;
+  record.seed = options.seed;
   record.version = PLUMBLINE_VERSION;
   record.max_depth = options.path.max_depth;
   record.width = result.film.width();
   record.height = result.film.height();
-  record.threads = arguments.threads > 0 ? arguments.threads
-                                         : static_cast<int>(std::thread::hardware_concurrency());
+  record.threads =
+      options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
   record.parameters = parse_definitions(arguments.definitions);
   return record;
 }
@@ -221,7 +208,7 @@ int run_render(const RenderArguments& arguments) {
   const renderer::Scene scene = renderer::make_scene(description);
   renderer::RenderOptions options = render_options(arguments, description);
   print_found(arguments, description, scene, options);
-  Progress progress(arguments.seconds, options.samples_per_pixel < kMaxSamples);
+  Progress progress(options.seconds, options.samples_per_pixel < kMaxSamples);
   if (progress.shown()) options.progress = [&](double done) { progress.update(done); };
   const renderer::RenderResult result = render(scene, options);
 
@@ -251,7 +238,8 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
       .add_option_function<std::string>(
           "--strategy",
           [&](const std::string& text) {
-            arguments.strategy = parse_name("--strategy", "strategy", renderer::kStrategies, text);
+            arguments.options.path.strategy =
+                parse_name("--strategy", "strategy", renderer::kStrategies, text);
           },
           fmt::format("One of {}; mis without it",
                       fmt::join(names_of(renderer::kStrategies), ", ")))
@@ -259,7 +247,9 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
   command
       .add_option_function<std::string>(
           "--heuristic",
-          [&](const std::string& text) { arguments.heuristic = parse_heuristic(text); },
+          [&](const std::string& text) {
+            arguments.options.path.heuristic = parse_heuristic(text);
+          },
           fmt::format("One of {}; power=2 without it. power=b and cutoff=a take a parameter",
                       fmt::join(names_of(renderer::kHeuristics), ", ")))
       ->type_name("NAME");
@@ -279,7 +269,8 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
       .add_option_function<std::string>(
           "--sampler",
           [&](const std::string& text) {
-            arguments.sampler = parse_name("--sampler", "sampler", renderer::kSamplers, text);
+            arguments.options.sampler =
+                parse_name("--sampler", "sampler", renderer::kSamplers, text);
           },
           fmt::format("One of {}; independent without it",
                       fmt::join(names_of(renderer::kSamplers), ", ")))
@@ -288,7 +279,8 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
       .add_option_function<std::string>(
           "--backend",
           [&](const std::string& text) {
-            arguments.backend = parse_name("--backend", "backend", renderer::kBackends, text);
+            arguments.options.backend =
+                parse_name("--backend", "backend", renderer::kBackends, text);
           },
           fmt::format("One of {}: many paths side by side, or one after the other; the same image. "
                       "batched without it",
@@ -313,10 +305,12 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--spp", arguments.samples, "Samples per pixel; the scene's without it")
       ->check(whole_number(1, kMaxSamples))
       ->type_name("N");
-  command.add_option("--seconds", arguments.seconds, "Stop after this time")
+  command.add_option("--seconds", arguments.options.seconds, "Stop after this time")
       ->check(positive_number())
       ->type_name("S");
-  command.add_option("--error", arguments.error, "Stop at this estimated relative error")
+  command
+      .add_option("--error", arguments.options.relative_error,
+                  "Stop at this estimated relative error")
       ->check(positive_number())
       ->type_name("E");
   command
@@ -324,11 +318,14 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
                   "1: emission only, 2: direct light too, -1: all; the scene's without it")
       ->check(whole_number(-1, std::numeric_limits<int>::max()))
       ->type_name("N");
-  command.add_option("--seed", arguments.seed, "The same seed gives the same bits; 0 without it")
+  command
+      .add_option("--seed", arguments.options.seed,
+                  "The same seed gives the same bits; 0 without it")
       ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()))
       ->type_name("N");
   command
-      .add_option("--threads", arguments.threads, "All cores without it; no matter to the image")
+      .add_option("--threads", arguments.options.threads,
+                  "All cores without it; no matter to the image")
       ->check(whole_number(1, 1024))
       ->type_name("N");
   command.add_option("--size", arguments.size, "Size of the image in place of the scene's")
@@ -346,7 +343,7 @@ void add_render_command(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<RenderArguments>();
   CLI::App* command = app.add_subcommand("render", "Render a scene to an OpenEXR image");
   add_options(*command, *arguments);
-  add_allocation_options(*command, arguments->allocation, arguments->heuristic);
+  add_allocation_options(*command, arguments->allocation);
   command->footer(R"(Examples:
   plumbline render furnace_cube -o cube.exr --strategy one-sample --heuristic balance --spp 1024
   plumbline render sphere_light -o light.exr -D radius=0.1 -D height=2 --error 0.01

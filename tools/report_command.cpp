@@ -1,10 +1,12 @@
-#include "report_command.h"
-
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -12,6 +14,10 @@
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/reports/page.h>
+#include <plumbline/verify/detail/budget.h>
+
+#include "command.h"
+#include "output_file.h"
 
 namespace plumbline::tools {
 namespace {
@@ -93,8 +99,19 @@ bool is_machine_failure(const std::error_code& code) {
          code == std::error_code(EDQUOT, std::generic_category());
 }
 
-}  // namespace
-
+/// Makes the page of a results directory and prints a summary table.
+///
+/// Pictures are the EXR files that the render records in the directory name; one that cannot be
+/// read is a warning on the page, like every record that cannot.
+///
+/// @param results_dir  searched for records, subdirectories included (reports::read_results)
+/// @param output       the HTML file; replaced only by a whole new page
+/// @param max_checks   bound on the number of checks that the error budget is split over
+/// @return             0; 1 where a check did not give its expected verdict, a record was lost, or
+///                     there are more checks than max_checks, so that their levels add up to more
+///                     than the budget
+/// @throws InputError for a directory that holds no results, and an output that cannot be written;
+///         MachineError where the disk is full
 int run_report(const std::filesystem::path& results_dir, const std::filesystem::path& output,
                std::uint64_t max_checks) {
   try {
@@ -110,15 +127,46 @@ int run_report(const std::filesystem::path& results_dir, const std::filesystem::
                  "plumbline: {} checks, but the error budget is split over {}: the chance of a "
                  "false alarm is not what it claims to be\n",
                  summary.checks(), max_checks);
-      return 1;
+      return kExitUnexpectedVerdict;
     }
-    return summary.unexpected == 0 && summary.unreadable == 0 ? 0 : 1;
+    return summary.unexpected == 0 && summary.unreadable == 0 ? kExitFine : kExitUnexpectedVerdict;
   } catch (const reports::ResultsError& error) {
     throw renderer::InputError(error.what());
   } catch (const std::system_error& error) {
     if (is_machine_failure(error.code())) throw renderer::MachineError(error.what());
     throw renderer::InputError(error.what());
   }
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app, Run& run) {
+  struct Arguments {
+    std::string results, page;
+    std::uint64_t max_checks = verify::ErrorBudget{}.max_checks;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("report", "Make the page of a results directory");
+  command->add_option("results", arguments->results, "Directory with records")
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", arguments->page, "HTML file to write")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--max-checks", arguments->max_checks,
+                   "Refuse a run of more checks: the error budget is split over so many")
+      ->capture_default_str()
+      ->type_name("N");
+  command->footer("Example:\n  plumbline report build/release/results -o index.html");
+  command->callback([arguments, &run] {
+    run = [arguments] {
+      const OutputFile page(arguments->page);
+      const int exit_code = run_report(arguments->results, page.path(), arguments->max_checks);
+      page.finish();
+      return exit_code;
+    };
+  });
 }
 
 }  // namespace plumbline::tools
