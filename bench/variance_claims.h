@@ -17,7 +17,7 @@ namespace plumbline::bench {
 /// time, rays per path, cost of a path. Every claim gets a verdict.
 ///
 /// @source RayON, "Multiple Importance Sampling": tables "Expected variance reduction" and
-/// "Performance cost"
+///         "Performance cost"
 void measure_variance_claims(reports::ResultLog& log, bool full);
 
 /// From … to, both included; infinity where a side is open.

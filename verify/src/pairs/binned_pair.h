@@ -35,8 +35,7 @@ struct BinCounts {
   std::vector<AtomCount> atoms;  ///< those of the pair, then those met on the way
   std::uint64_t rejected = 0;
   std::uint64_t stray = 0;  ///< samples outside the domain or where the density is 0 all around
-  std::uint64_t not_finite =
-      0;  ///< samples or densities at samples that are not finite, or negative
+  std::uint64_t not_finite = 0;  ///< samples, or densities at them, not finite or negative
   std::uint64_t drawn = 0;
   std::vector<Vec3> strays;           ///< the first of them
   std::optional<Vec3> not_finite_at;  ///< an example

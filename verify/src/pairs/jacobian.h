@@ -12,8 +12,8 @@ namespace plumbline::verify {
 /// whole, and of each lobe.
 struct JacobianOutcome {
   CheckResult result;
-  bool below_everywhere =
-      false;  ///< all that fails is less dense than the pdf: one branch of several?
+  /// All that fails is less dense than the pdf: one branch of several?
+  bool below_everywhere = false;
   std::vector<RatioSeries> ratios;
 };
 

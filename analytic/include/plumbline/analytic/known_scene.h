@@ -99,8 +99,7 @@ std::filesystem::path scene_file(std::string_view name);
 /// @param film       resolution; the scene file's own where not given
 /// @param max_depth  the scene file's own where not given; −1 is unlimited
 /// @throws std::invalid_argument for a parameter that the scene does not have, a value out of
-/// range, or
-///         values for which the closed form does not hold (it says which and why)
+///         range, or values for which the closed form does not hold (it says which and why)
 std::unique_ptr<PixelOracle> make_oracle(const KnownScene& scene,
                                          const ParameterValues& overrides = {},
                                          std::optional<FilmSize> film = std::nullopt,

@@ -9,8 +9,8 @@ namespace plumbline::analytic {
 /// A closed form averaged over an area, with a bound on its numerical error.
 struct Average {
   double value = 0;  ///< radiance [W/(m² sr)], the same in every colour channel
-  double error =
-      0;  ///< |value − truth| is at most this: rounding, plus quadrature where there is any
+  /// |value − truth| is at most this: rounding, plus quadrature where there is any.
+  double error = 0;
 };
 
 /// Axis-aligned rectangle in film coordinates [pixels]: x0 < x1 and y0 < y1.

@@ -11,8 +11,7 @@ namespace plumbline::analytic {
 /// @param height   of the centre over the plane [m]; any sign
 /// @param lateral  distance of the receiving point from the foot of the centre [m], ≥ 0
 /// @return E/L in [0, π]; 0 inside the sphere, which emits outwards only. Relative error below
-/// 1e-13 for
-///         height ≥ 0; below 0 the error is 1e-13 of the unclipped value
+///         1e-13 for height ≥ 0; below 0 the error is 1e-13 of the unclipped value
 /// @source Snyder 1996 (Microsoft TR-96-11), here derived from Lambert's boundary formula
 double sphere_irradiance(double radius, double height, double lateral);
 

@@ -24,9 +24,8 @@ enum class SeriesStyle {
 struct FigureSeries {
   std::string name;
   SeriesStyle style = SeriesStyle::points;
-  std::vector<double> x, y;  ///< same length; a NaN in y is a gap
-  std::vector<double> low,
-      high;  ///< intervals of y, drawn as bars; both empty or both as long as y
+  std::vector<double> x, y;       ///< same length; a NaN in y is a gap
+  std::vector<double> low, high;  ///< of y, drawn as bars; both empty or both as long as y
 
   bool operator==(const FigureSeries&) const = default;
 };

@@ -26,8 +26,8 @@ namespace plumbline::verify {
 struct AutodiffOptions : CheckSettings {
   int points = 10'000;
   double tolerance = 1e-9;  ///< relative error of pdf·|∂x/∂u|, in double
-  double nearest =
-      1e-12;  ///< how close u comes to 0 and 1; half of all points are spread towards them
+  /// How close u comes to 0 and 1; half of all points are spread towards them.
+  double nearest = 1e-12;
 };
 
 namespace detail {
@@ -158,7 +158,7 @@ inline double number_towards_ends(Random& random, double nearest) {
 /// figures; more than a tenth of such points is inconclusive.
 ///
 /// @param sample  template over its scalar: (T u, T v) to an optional point, with x, y (, z) or
-/// operator[]
+///                operator[]
 /// @param pdf     (T) of a point in double, as a Vec3
 template <class Sample, class Pdf>
 CheckResult check_jacobian_autodiff(const std::string& subject, const Domain& domain,

@@ -54,7 +54,7 @@ Report check_bsdf(const std::string& name, const ErasedBsdf& bsdf, const BsdfOpt
 /// is understood.
 ///
 /// @tparam Direction  its vector type; may be left out where `pdf` is neither a template nor
-/// overloaded
+///                    overloaded
 /// @tparam Numbers    type of the random numbers that `sample` takes, where it cannot be found out
 template <class Direction = void, class Numbers = void, class B>
 Report check_bsdf(const std::string& name, const B& bsdf, const BsdfOptions& options = {}) {

@@ -51,10 +51,10 @@ struct ImageResult {
 /// from fewer than 2^20 samples: light that none of them has hit is not in its variance.
 ///
 /// @param reference  without variance: exact, averaged over each pixel's footprint; with: a second
-/// render
+///                   render
 /// @throws std::invalid_argument if sizes differ or an array has the wrong length
 /// @source Jung, Hanika, Dachsbacher 2020 (JCGT 9:2): Welch's test per tile, map and histogram of
-/// p-values
+///         p-values
 ImageResult check_image(const ImageOptions& options, const Image& image, const Image& reference);
 
 }  // namespace plumbline::verify

@@ -64,8 +64,7 @@ struct MeanOptions : CheckSettings {
 /// difference test at once, group-sequential, both levels spent over the looks.
 ///
 /// - `fail` if the bias is proven to exceed the rounding allowance, at the level of the error
-/// budget;
-///   also if any sample was not finite.
+///   budget; also if any sample was not finite.
 /// - `pass` if |bias| ≤ tolerance is proven with 99.9 % confidence.
 /// - else `inconclusive`, with the reason and the bound still proven.
 ///
@@ -85,8 +84,7 @@ struct MeanOptions : CheckSettings {
 /// their mean below 0.55 of it: what is missing may be light that none of them has hit.
 ///
 /// @source Hall 1992 (J. R. Stat. Soc. B 54:1), transformation g of Section 2 · two one-sided
-/// tests:
-///         Schuirmann 1987
+///         tests: Schuirmann 1987
 class MeanCheck {
  public:
   /// @throws std::invalid_argument for a reference, tolerance or cap that makes no sense

@@ -133,8 +133,7 @@ std::optional<SampleRecord> record_of_point(const std::optional<P>& point) {
 ///
 /// @tparam Point   of the user: a number, or a vector with x, y (, z) or operator[]
 /// @param sample   one or two uniform numbers of the point's scalar type, or a Random&, to a point
-/// or an
-///                 optional point
+///                 or an optional point
 /// @param pdf      of a point
 template <class Point, class Sample, class Pdf>
 SamplingPair sampling_pair(std::string name, Domain domain, Sample sample, Pdf pdf) {
@@ -225,8 +224,7 @@ CheckResult check_chi_square(const SamplingPair& pair, const ContractOptions& op
 ///
 /// @param density  pdf_w [1/sr] of a unit direction
 /// @param sampler  two numbers uniform in [0, 1), in the scalar of the direction's type, to an
-/// optional
-///                 direction
+///                 optional direction
 template <class Direction, class Density, class Sampler>
 CheckResult check_chi_square(std::string subject, Density density, Sampler sampler,
                              const ContractOptions& options = {}) {

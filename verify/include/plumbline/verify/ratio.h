@@ -34,7 +34,7 @@ struct VarianceRatioOptions : CheckSettings {
 ///
 /// @throws std::invalid_argument for fewer than 16 batches or unequally many
 /// @source Miller 1974 (jackknife of log variances) · Hall 1992 (J. R. Stat. Soc. B 54:1), Section
-/// 2
+///         2
 CheckResult check_variance_ratio(const VarianceRatioOptions& options, std::span<const Moments> a,
                                  std::span<const Moments> b);
 

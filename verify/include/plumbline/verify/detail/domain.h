@@ -66,7 +66,7 @@ class Domain {
   /// @param up     direction of θ = 0, unit; rows run from it to −up
   /// @param start  direction at right angles to it from which azimuths are counted, either way
   /// @throws std::invalid_argument for a map without pixels, or directions that are not at right
-  /// angles
+  ///         angles
   static Domain equirectangular(std::size_t columns, std::size_t rows, const Vec3& up = {0, 0, 1},
                                 const Vec3& start = {1, 0, 0});
 

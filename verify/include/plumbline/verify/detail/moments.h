@@ -13,8 +13,7 @@ namespace plumbline::verify {
 /// samples only, and no check passes while that is not 0.
 ///
 /// @source Welford 1962 (mean, m2); merging: Chan, Golub, LeVeque 1979, Eq. 2.1; third moment:
-/// Pébay
-///         2008 (SAND2008-6212), Eqs. 2.1 and 3.1
+///         Pébay 2008 (SAND2008-6212), Eqs. 2.1 and 3.1
 class Moments {
  public:
   /// Adds one sample.

@@ -16,7 +16,7 @@
 /// p_i/Σ n p. A f that is a combination of the pdfs has zero variance.
 ///
 /// @source Kondapaneni et al. 2019, "Optimal multiple importance sampling" (ACM TOG 38:4), Section
-/// 4
+///         4
 namespace plumbline::renderer {
 
 /// The technique matrix A and contribution vector b, from quadrature or from samples.

@@ -72,8 +72,7 @@ struct GgxDielectric {
   }
 
   /// @source reflection: see GgxConductor::pdf. Refraction: visible normals, Heitz 2018, Eq. 3,
-  /// with
-  ///         the Jacobian η_i² |wi·h| / |η_o wo + η_i wi|² of Walter et al. 2007, Eq. 17
+  ///         with the Jacobian η_i² |wi·h| / |η_o wo + η_i wi|² of Walter et al. 2007, Eq. 17
   template <class T>
   T pdf_lobe(const Vec3<T>& wo, const Vec3<T>& wi, std::uint32_t lobe) const {
     const auto half = half_vector(wo, wi);

@@ -13,8 +13,7 @@ namespace plumbline::renderer {
 ///
 /// f = reflectance (n + 2)/(2π) cosⁿα, α between wi and the mirrored wo.
 /// @source Lafortune, Willems 1994, "Using the modified Phong reflectance model for physically
-/// based
-///         rendering", Section 3 (specular part)
+///         based rendering", Section 3 (specular part)
 struct ModifiedPhong {
   Rgbf reflectance;  ///< per channel, [0, 1]
   float exponent;    ///< n, 1 … 1e6

@@ -23,7 +23,7 @@ struct SphereLight {
   /// @param ref  reference point, world space
   /// @param u    in [0, 1)²
   /// @return     nullopt where ref is inside a sphere that emits outwards, or a sample sees no
-  /// front
+  ///             front
   template <class T>
   std::optional<LightSample<T>> sample(const Vec3<T>& ref, const Vec2<T>& u) const {
     return inward ? sample_from_inside(ref, u) : sample_cone(ref, u);

@@ -13,8 +13,8 @@ namespace plumbline::renderer {
 struct PathOptions {
   Strategy strategy = Strategy::mis;
   Weighting heuristic = Heuristic::power;
-  int max_depth =
-      -1;  ///< as in Mitsuba: 1 is directly visible emission, 2 adds direct light, −1 no limit
+  /// As in Mitsuba: 1 is directly visible emission, 2 adds direct light, −1 no limit.
+  int max_depth = -1;
   int rr_depth = 5;  ///< Russian roulette from this depth on, > 0; kNoRoulette turns it off
   /// Of `mis`, at the first vertex: samples n ≥ 0 of each technique, not both 0, which together
   /// must find all light. Later vertices take one of each.
