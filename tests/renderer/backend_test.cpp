@@ -1,61 +1,26 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <filesystem>
 #include <string>
 
-#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/names.h>
-#include <plumbline/renderer/assembly/render.h>
-#include <plumbline/renderer/scene_file/load_scene.h>
+#include "both_backends.h"
 #include "scenes.h"
 
 /// Two backends, one image: what the batched one answers is held against the plain loop.
-namespace plumbline::renderer {
+namespace plumbline::tests {
 namespace {
 
-const std::filesystem::path kSource = PLUMBLINE_SOURCE_DIR;
-
-SceneDescription small(const std::string& file) {
-  SceneDescription scene = load_scene(kSource / (file + ".xml"));
-  scene.camera.width = 20;
-  scene.camera.height = 15;
-  return scene;
-}
+using namespace renderer;
 
 RenderOptions options_of(const SceneDescription& scene, Strategy strategy, SamplerType sampler) {
   RenderOptions options;
   options.path.strategy = strategy;
   options.path.max_depth = scene.integrator.max_depth < 0 ? 12 : scene.integrator.max_depth;
   options.path.rr_depth = scene.integrator.rr_depth;
-  options.samples_per_pixel = 16;  // more paths than one batch holds
+  options.samples_per_pixel = kSmallSamples;
   options.sampler = sampler;
   return options;
-}
-
-struct Pair {
-  RenderResult scalar, batched;
-};
-
-Pair render_both(const Scene& scene, RenderOptions options) {
-  options.backend = Backend::scalar;
-  options.threads = 1;
-  RenderResult scalar = render(scene, options);
-  options.backend = Backend::batched;
-  options.threads = 2;
-  return {std::move(scalar), render(scene, options)};
-}
-
-/// Pixels whose moments are not the same bits.
-std::size_t differing_pixels(const Pair& pair) {
-  const auto& a = pair.scalar.film.pixels();
-  const auto& b = pair.batched.film.pixels();
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    count += std::memcmp(&a[i], &b[i], sizeof a[i]) != 0 ? 1u : 0u;
-  }
-  return count;
 }
 
 /// Relative to the scalar one, plus a thousandth.
@@ -87,21 +52,14 @@ TEST(Backends, GiveTheSameBitsOnFlatSurfaces) {
        {"bench/scenes/cornell", "analytic/scenes/lights_1000", "analytic/scenes/furnace_cube",
         "analytic/scenes/triangle_light", "analytic/scenes/point_glossy",
         "analytic/scenes/sidewalk", "analytic/scenes/phong_polygon"}) {
-    for_each_way(file, [](const Pair& pair) {
-      EXPECT_EQ(differing_pixels(pair), 0u);
-      const PathCounters &a = pair.scalar.counters, &b = pair.batched.counters;
-      EXPECT_EQ(a.camera_rays, b.camera_rays);
-      EXPECT_EQ(a.bounce_rays, b.bounce_rays);
-      EXPECT_EQ(a.shadow_rays, b.shadow_rays);
-      EXPECT_EQ(a.rejected, b.rejected);
-    });
+    for_each_way(file, expect_same_bits);
   }
 }
 
 TEST(Backends, GiveTheSameBitsOnAMeshOfManyTriangles) {
   // More than small scenes have, which are traced by another kind of packet.
   constexpr std::uint32_t kSide = 64;
-  SceneDescription description = tests::empty_scene(20, 15);
+  SceneDescription description = empty_scene(kSmallWidth, kSmallHeight);
   description.camera.origin = {0, 0, -2};
   description.environment = Rgbd{1, 1, 1};
   MeshShape hills;
@@ -128,7 +86,7 @@ TEST(Backends, GiveTheSameBitsOnAMeshOfManyTriangles) {
 }
 
 TEST(Backends, GiveTheSameBitsOfASkyAlone) {
-  SceneDescription description = tests::empty_scene(20, 15);
+  SceneDescription description = empty_scene(kSmallWidth, kSmallHeight);
   description.bsdfs = make_bsdfs({});
   description.environment = Rgbd{1, 2, 3};
   const Scene scene = make_scene(description);
@@ -194,4 +152,4 @@ TEST(Backends, AreFoundByName) {
 }
 
 }  // namespace
-}  // namespace plumbline::renderer
+}  // namespace plumbline::tests

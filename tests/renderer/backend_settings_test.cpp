@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+#include <plumbline_tests/covering_array.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <plumbline/renderer/assembly/names.h>
+#include "both_backends.h"
+
+/// Two backends, one image, whatever the settings: three values of any three settings meet in some
+/// row.
+namespace plumbline::tests {
+namespace {
+
+using namespace renderer;
+
+/// Every scene in which both backends round alike: diffuse, metal, glass, clear coat, mixtures and
+/// Phong; in colour; rectangles, triangles, a point and the sky; one light, some that differ and a thousand.
+constexpr std::array kScenes{"tests/renderer/lamps",
+                             "bench/scenes/cornell",
+                             "analytic/scenes/lights_1000",
+                             "analytic/scenes/furnace_cube",
+                             "analytic/scenes/triangle_light",
+                             "analytic/scenes/point_glossy",
+                             "analytic/scenes/sidewalk",
+                             "analytic/scenes/phong_polygon"};
+/// Each with a loop of its own in the batched backend, or with the one for all others.
+const std::array kWeightings{Weighting(Heuristic::balance), Weighting(Heuristic::power),
+                             Weighting(Heuristic::power, 1.5), Weighting(Heuristic::cutoff),
+                             Weighting(Heuristic::maximum)};
+constexpr std::array kDepths{1, 2, 5, -1};
+constexpr std::array kRouletteDepths{1, 3, kNoRoulette};
+/// Samples of BSDF and light at the first vertex, which only `mis` looks at.
+constexpr std::array kCounts{std::pair{1, 1}, std::pair{2, 3}};
+
+enum Setting : std::size_t { kScene, kStrategy, kWeighting, kDepth, kRoulette, kSampler, kSelection, kCount };
+
+/// Paths of unlimited depth without roulette are refused.
+Settings all_settings() {
+  return {{kScenes.size(), kStrategies.size(), kWeightings.size(), kDepths.size(),
+           kRouletteDepths.size(), kSamplers.size(), kLightSelections.size(), kCounts.size()},
+          {{{kDepth, 3}, {kRoulette, 2}}}};
+}
+
+RenderOptions options_of(const SettingsRow& row) {
+  RenderOptions options;
+  options.samples_per_pixel = kSmallSamples;
+  options.path.strategy = kStrategies.at(row[kStrategy]);
+  options.path.heuristic = kWeightings.at(row[kWeighting]);
+  options.path.max_depth = kDepths.at(row[kDepth]);
+  options.path.rr_depth = kRouletteDepths.at(row[kRoulette]);
+  options.sampler = kSamplers.at(row[kSampler]);
+  std::tie(options.path.bsdf_samples, options.path.light_samples) = kCounts.at(row[kCount]);
+  return options;
+}
+
+/// What repeats one row by hand.
+std::string commands(const SettingsRow& row) {
+  const RenderOptions options = options_of(row);
+  const PathOptions& path = options.path;
+  const auto render_by = [&](Backend backend) {
+    std::string text = "plumbline render ";
+    text.append(kScenes.at(row[kScene])).append(".xml -o ").append(name(backend)).append(".exr");
+    text.append(" --backend ").append(name(backend));
+    text.append(" --strategy ").append(name(path.strategy));
+    if (uses_heuristic(path.strategy)) text.append(" --heuristic " + describe(path.heuristic));
+    if (path.strategy == Strategy::mis) {
+      text.append(" --counts " + std::to_string(path.bsdf_samples) + "," +
+                  std::to_string(path.light_samples));
+    }
+    text.append(" --max-depth " + std::to_string(path.max_depth) + " --roulette ");
+    text.append(path.rr_depth == kNoRoulette ? "off" : std::to_string(path.rr_depth));
+    text.append(" --sampler ").append(name(options.sampler));
+    if (options.sampler == SamplerType::sobol) text.append(" --replicates 1");
+    text.append(" --light-selection ").append(name(kLightSelections.at(row[kSelection])));
+    text.append(" --spp " + std::to_string(kSmallSamples) + " --size " +
+                std::to_string(kSmallWidth) + "x" + std::to_string(kSmallHeight));
+    return text;
+  };
+  return render_by(Backend::scalar) + " && " + render_by(Backend::batched) +
+         " && plumbline compare scalar.exr batched.exr --exact";
+}
+
+/// Scenes that are asked for more than once, with their lights chosen in each way.
+class SceneCache {
+ public:
+  const Scene& get(std::size_t scene, std::size_t selection) {
+    std::unique_ptr<const Scene>& entry = scenes_[{scene, selection}];
+    if (!entry) {
+      SceneDescription description = small(kScenes.at(scene));
+      description.light_selection = kLightSelections.at(selection);
+      entry = std::make_unique<const Scene>(make_scene(description));
+    }
+    return *entry;
+  }
+
+ private:
+  std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<const Scene>> scenes_;
+};
+
+TEST(BackendSettings, AnyThreeGiveTheSameBitsOnFlatSurfaces) {
+  SceneCache scenes;
+  const std::vector<SettingsRow> rows = covering_array(all_settings(), 3);
+  ASSERT_EQ(uncovered(all_settings(), 3, rows), std::vector<Combination>{});
+  for (const SettingsRow& row : rows) {
+    SCOPED_TRACE(commands(row));
+    const Pair pair = render_both(scenes.get(row[kScene], row[kSelection]), options_of(row));
+    expect_same_bits(pair);
+    EXPECT_EQ(pair.batched.counters.camera_rays, kSmallSamples * kSmallWidth * kSmallHeight);
+  }
+}
+
+TEST(BackendSettings, EachIsSeenInTheImage) {
+  SceneCache scenes;
+  // Lamps that differ; roulette from depth 3 on.
+  const SettingsRow base{0, 3, 0, 2, 1, 0, 0, 0};
+  for (std::size_t setting = kStrategy; setting < base.size(); ++setting) {
+    SettingsRow row = base;
+    const auto image = [&] {
+      return render_both(scenes.get(row[kScene], row[kSelection]), options_of(row));
+    };
+    Pair pair = image();
+    const std::size_t values = all_settings().value_counts[setting];
+    for (std::size_t other = 0; other < values; ++other) {
+      if (other == base[setting]) continue;
+      row[setting] = other;
+      pair.batched = image().batched;
+      EXPECT_GT(differing_pixels(pair), 0u) << commands(row);
+    }
+  }
+}
+
+TEST(BackendSettings, AnAllocationOfSamplesDoesNotAskWhichBackend) {
+  SceneCache scenes;
+  for (const Allocation policy : kAllocations) {
+    for (std::size_t selection = 0; selection < kLightSelections.size(); ++selection) {
+      SCOPED_TRACE(std::string(name(policy)).append(", ").append(
+          name(kLightSelections.at(selection))));
+      RenderOptions options;
+      options.samples_per_pixel = kSmallSamples;
+      options.path.max_depth = 2;
+      options.allocation = AllocationOptions{.policy = policy, .iterations = 4, .cost_ratio = 2};
+      const Pair pair = render_both(scenes.get(0, selection), options);
+      expect_same_bits(pair);
+      ASSERT_EQ(pair.scalar.bsdf_counts.size(), 4u * kSmallWidth * kSmallHeight);
+      EXPECT_EQ(pair.scalar.bsdf_counts, pair.batched.bsdf_counts);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::tests
