@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/directions.h>
 
 #include <array>
 #include <cmath>
@@ -34,22 +35,32 @@ TYPED_TEST_SUITE(Edge, BsdfTypes, );
 
 TYPED_TEST(Edge, NothingIsNonFiniteAndAtomsReportNoDensity) {
   for (const Example& example : examples_of<TypeParam>()) {
-    for (const double cosine : {1.0, 1e-12, std::cos(89.99 * std::acos(-1.0) / 180)}) {
-      for (const double side : {1.0, -1.0}) {
-        const Vec3f wo = direction(side * cosine, 0.3);
+    for (const double cosine : {1.0, 1e-12, std::cos(radians(89.99))}) {
+      for (const bool front : {true, false}) {
+        const Vec3f wo = direction(front ? cosine : -cosine, 0.3);
+        const Gives gives = example.gives.of(front);
+        int samples = 0;
         for (const float x : kEnds) {
           for (const float y : kEnds) {
             const auto s = example.bsdf.sample(wo, Vec2f{x, y});
             if (!s) continue;
+            ++samples;
             const std::string place = example.name + " u " + std::to_string(x) + ' ' +
                                       std::to_string(y) + " cosθo " + std::to_string(wo.z);
             EXPECT_TRUE(is_sane(s->weight)) << place;
             EXPECT_TRUE(std::isfinite(s->pdf_w)) << place;
             EXPECT_NEAR(length(s->wi), 1, 1e-5f) << place;
             EXPECT_TRUE(s->is_atom() ? s->pdf_w == 0 && s->mass <= 1 : s->pdf_w > 0) << place;
+            EXPECT_TRUE(s->is_atom() ? has_atoms(gives) : has_density(gives)) << place;
             EXPECT_TRUE(is_sane(example.bsdf.eval(wo, s->wi))) << place;
             EXPECT_TRUE(std::isfinite(example.bsdf.pdf(wo, s->wi))) << place;
           }
+        }
+        // Along the normal nothing falls below the horizon but the ends of a rough lobe.
+        if (gives == Gives::nothing) {
+          EXPECT_EQ(samples, 0) << example.name << " cosθo " << wo.z;
+        } else {
+          EXPECT_GE(samples, cosine == 1 ? 8 : 1) << example.name << " cosθo " << wo.z;
         }
       }
     }
@@ -61,23 +72,25 @@ TYPED_TEST(Edge, SampledDirectionsAreOfUnitLengthWhereTheVisibleNormalCancels) {
   // are opposite where wo lies along an axis and u.x is 0 or ½: what rounding leaves of it points
   // anywhere, and is reflected and refracted at all the same.
   constexpr double kRoundings = 64;
+  int samples = 0;
   const auto check = [&]<class T>(const Example& example, double epsilon, T /*scalar*/) {
     for (const double degrees : {60.0, 80.0, 89.9}) {
       for (const double azimuth : {0.0, 1e-16, -1e-12, 1e-8, std::acos(-1.0), std::acos(0.0)}) {
-        for (const double side : {1.0, -1.0}) {
-          const double theta = degrees * std::acos(-1.0) / 180;
-          const Vec3<T> wo{T(std::sin(theta) * std::cos(azimuth)),
-                           T(std::sin(theta) * std::sin(azimuth)), T(side * std::cos(theta))};
+        for (const bool front : {true, false}) {
+          const verify::Vec3 exact = direction_at(degrees, azimuth, front);
+          const Vec3<T> wo{T(exact[0]), T(exact[1]), T(exact[2])};
           for (std::uint32_t lobe = 0; lobe < example.bsdf.lobe_count(); ++lobe) {
             for (const double x : {0.0, 0.25, 0.5, 1 - 2 * epsilon}) {
               for (const double ulps : {1.0, 2.0, 3.0, 8.0}) {
                 const Vec2<T> u{T(x), T(1 - 2 * ulps * epsilon)};
                 const auto s = example.bsdf.sample_lobe(wo, lobe, u);
                 if (!s) continue;
+                ++samples;
+                EXPECT_NE(example.gives.of(front), Gives::nothing) << example.name;
                 const double length_of_wi = length(vec_cast<double>(s->wi));
                 EXPECT_NEAR(length_of_wi, 1, kRoundings * epsilon)
                     << example.name << ", " << degrees << "°, azimuth " << azimuth << ", side "
-                    << side << ", lobe " << lobe << ", u " << x << ", " << ulps;
+                    << (front ? 1 : -1) << ", lobe " << lobe << ", u " << x << ", " << ulps;
               }
             }
           }
@@ -89,16 +102,25 @@ TYPED_TEST(Edge, SampledDirectionsAreOfUnitLengthWhereTheVisibleNormalCancels) {
     check(example, 0x1p-53, double{});
     check(example, 0x1p-24, float{});
   }
+  // Metals reflect nearly all of the limb below the horizon, the narrowest all of it in double.
+  EXPECT_GE(samples, 500);
 }
 
-TYPED_TEST(Edge, WhatIsAllAtomsHasNoDensityAnywhere) {
+TYPED_TEST(Edge, ThereIsADensityWhereTheModelHasOneAndNowhereElse) {
   verify::Random random(1);
   for (const Example& example : examples_of<TypeParam>()) {
-    if (example.bsdf.parts().density) continue;
+    EXPECT_EQ(example.bsdf.parts().density, example.gives.density()) << example.name;
+    EXPECT_EQ(example.bsdf.parts().atoms, example.gives.atoms()) << example.name;
     for (const Vec3f& wo : hard_outgoing(random)) {
+      int bright = 0;
       for (const Vec3f& wi : hard_incoming(example.bsdf, wo, 16, random)) {
+        bright += example.bsdf.pdf(wo, wi) > 0 ? 1 : 0;
+        if (has_density(example.gives.of(wo.z > 0))) continue;
         EXPECT_EQ(example.bsdf.pdf(wo, wi), 0) << example.name;
         EXPECT_TRUE(is_black(example.bsdf.eval(wo, wi))) << example.name;
+      }
+      if (has_density(example.gives.of(wo.z > 0))) {
+        EXPECT_GT(bright, 0) << example.name << " cosθo " << wo.z;
       }
     }
   }
@@ -122,7 +144,7 @@ TEST(DarkHalo, MetalWithoutLossStaysBrightToTheHorizon) {
   const GgxConductor metal{{0.1f, 0.1f}, {}};
   verify::Random random(2);
   for (const double degrees : {85.0, 89.0, 89.9, 89.99}) {
-    const Vec3f wo = direction(std::cos(degrees * std::acos(-1.0) / 180), 0.3);
+    const Vec3f wo = direction(std::cos(radians(degrees)), 0.3);
     double sum = 0;
     constexpr int kSamples = 20'000;
     for (int i = 0; i < kSamples; ++i) {
@@ -139,6 +161,7 @@ TEST(TwoSided, BehindItIsTheFrontMirroredAtTheSurface) {
   const BsdfRef metal(set, 0), both(set, 1);
   const auto mirrored = [](const Vec3f& w) { return Vec3f{w.x, w.y, -w.z}; };
   verify::Random random(4);
+  int sampled = 0;
   for (int i = 0; i < 1000; ++i) {
     const auto anywhere = [&random] {
       const double cosine = random.uniform();
@@ -150,9 +173,11 @@ TEST(TwoSided, BehindItIsTheFrontMirroredAtTheSurface) {
     const auto front = metal.sample(wo, u), behind = both.sample(mirrored(wo), u);
     ASSERT_EQ(front.has_value(), behind.has_value());
     if (front) {
+      ++sampled;
       EXPECT_EQ(length(mirrored(behind->wi) - front->wi), 0);
     }
   }
+  EXPECT_GT(sampled, 500);  // few fall below the horizon
 }
 
 TEST(SmoothDielectric, OfIndexOneIsInvisible) {

@@ -1,7 +1,5 @@
 #include "examples.h"
 
-#include <cstddef>
-
 namespace plumbline::tests {
 
 using namespace renderer;
@@ -14,15 +12,10 @@ namespace {
 const Rgbf kWhite{1, 1, 1};
 const ConductorFresnel kNoLoss;
 
-template <std::size_t... i>
-std::vector<Example> examples_of_all(std::index_sequence<i...>) {
-  std::vector<Example> all;
-  const auto append = [&all](std::vector<Example> examples) {
-    all.insert(all.end(), examples.begin(), examples.end());
-  };
-  (append(examples_of<std::variant_alternative_t<i, Bsdf>>()), ...);
-  return all;
-}
+constexpr Faces kDensityInFront{Gives::density, Gives::nothing};
+constexpr Faces kDensity{Gives::density, Gives::density};
+constexpr Faces kAtomsInFront{Gives::atoms, Gives::nothing};
+constexpr Faces kAtoms{Gives::atoms, Gives::atoms};
 
 }  // namespace
 
@@ -44,63 +37,69 @@ double eta_of(const BsdfSet& set, std::uint32_t index) {
   return std::visit([&](const auto& bsdf) { return of(of, bsdf); }, set.alternative(index));
 }
 
-std::vector<Example> all_examples() {
-  return examples_of_all(std::make_index_sequence<std::variant_size_v<Bsdf>>());
+Sets ExamplesOf<Lambertian>::sets() {
+  return {{"grey", {Lambertian{{0.5f, 0.2f, 0.8f}}}, kDensityInFront}};
 }
 
-Sets ExamplesOf<Lambertian>::sets() { return {{"grey", {Lambertian{{0.5f, 0.2f, 0.8f}}}}}; }
-
 Sets ExamplesOf<ModifiedPhong>::sets() {
-  return {{"n 1", {ModifiedPhong{kWhite, 1}}},
-          {"n 20", {ModifiedPhong{{0.9f, 0.5f, 0.1f}, 20}}},
-          {"n 1000", {ModifiedPhong{kWhite, 1000}}},
-          {"n 1e6", {ModifiedPhong{kWhite, 1e6f}}}};
+  return {{"n 1", {ModifiedPhong{kWhite, 1}}, kDensityInFront},
+          {"n 20", {ModifiedPhong{{0.9f, 0.5f, 0.1f}, 20}}, kDensityInFront},
+          {"n 1000", {ModifiedPhong{kWhite, 1000}}, kDensityInFront},
+          {"n 1e6", {ModifiedPhong{kWhite, 1e6f}}, kDensityInFront}};
 }
 
 Sets ExamplesOf<GgxConductor>::sets() {
-  return {{"alpha 1e-4", {GgxConductor{{1e-4f, 1e-4f}, kNoLoss}}},
-          {"alpha 1e-3 gold", {GgxConductor{{1e-3f, 1e-3f}, gold()}}},
-          {"alpha 0.1", {GgxConductor{{0.1f, 0.1f}, kNoLoss}}},
-          {"alpha 0.05, 0.4 copper", {GgxConductor{{0.05f, 0.4f}, copper()}}},
-          {"alpha 1e-4, 1", {GgxConductor{{1e-4f, 1}, kNoLoss}}},
-          {"alpha 1", {GgxConductor{{1, 1}, kNoLoss}}}};
+  return {{"alpha 1e-4", {GgxConductor{{1e-4f, 1e-4f}, kNoLoss}}, kDensityInFront},
+          {"alpha 1e-3 gold", {GgxConductor{{1e-3f, 1e-3f}, gold()}}, kDensityInFront},
+          {"alpha 0.1", {GgxConductor{{0.1f, 0.1f}, kNoLoss}}, kDensityInFront},
+          {"alpha 0.05, 0.4 copper", {GgxConductor{{0.05f, 0.4f}, copper()}}, kDensityInFront},
+          {"alpha 1e-4, 1", {GgxConductor{{1e-4f, 1}, kNoLoss}}, kDensityInFront},
+          {"alpha 1", {GgxConductor{{1, 1}, kNoLoss}}, kDensityInFront}};
 }
 
 Sets ExamplesOf<GgxDielectric>::sets() {
-  return {{"eta 1.5 alpha 1e-4", {GgxDielectric{{1e-4f, 1e-4f}, {1.5f}}}},
-          {"eta 1.5 alpha 0.1", {GgxDielectric{{0.1f, 0.1f}, {1.5f}}}},
-          {"eta 1/1.5 alpha 0.02", {GgxDielectric{{0.02f, 0.02f}, {1 / 1.5f}}}},
-          {"eta 1.01 alpha 0.3", {GgxDielectric{{0.3f, 0.3f}, {1.01f}}}},
-          {"eta 1.5 alpha 0.2, 0.6", {GgxDielectric{{0.2f, 0.6f}, {1.5f}}}},
-          {"eta 2.5 alpha 1", {GgxDielectric{{1, 1}, {2.5f}}}},
-          {"eta 1/2.5 alpha 0.5", {GgxDielectric{{0.5f, 0.5f}, {0.4f}}}}};
+  return {{"eta 1.5 alpha 1e-4", {GgxDielectric{{1e-4f, 1e-4f}, {1.5f}}}, kDensity},
+          {"eta 1.5 alpha 0.1", {GgxDielectric{{0.1f, 0.1f}, {1.5f}}}, kDensity},
+          {"eta 1/1.5 alpha 0.02", {GgxDielectric{{0.02f, 0.02f}, {1 / 1.5f}}}, kDensity},
+          {"eta 1.01 alpha 0.3", {GgxDielectric{{0.3f, 0.3f}, {1.01f}}}, kDensity},
+          {"eta 1.5 alpha 0.2, 0.6", {GgxDielectric{{0.2f, 0.6f}, {1.5f}}}, kDensity},
+          {"eta 2.5 alpha 1", {GgxDielectric{{1, 1}, {2.5f}}}, kDensity},
+          {"eta 1/2.5 alpha 0.5", {GgxDielectric{{0.5f, 0.5f}, {0.4f}}}, kDensity}};
 }
 
 Sets ExamplesOf<SmoothConductor>::sets() {
-  return {{"mirror", {SmoothConductor{kNoLoss}}}, {"gold", {SmoothConductor{gold()}}}};
+  return {{"mirror", {SmoothConductor{kNoLoss}}, kAtomsInFront},
+          {"gold", {SmoothConductor{gold()}}, kAtomsInFront}};
 }
 
 Sets ExamplesOf<SmoothDielectric>::sets() {
-  return {{"eta 1.5", {SmoothDielectric{{1.5f}}}},
-          {"eta 1", {SmoothDielectric{{1}}}},
-          {"eta 1/2.5", {SmoothDielectric{{0.4f}}}}};
+  return {{"eta 1.5", {SmoothDielectric{{1.5f}}}, kAtoms},
+          {"eta 1", {SmoothDielectric{{1}}}, kAtoms},
+          {"eta 1/2.5", {SmoothDielectric{{0.4f}}}, kAtoms}};
 }
 
 Sets ExamplesOf<ClearCoat>::sets() {
-  return {{"eta 1.5 alpha 0.1", {ClearCoat(1.5f, 0.1f, {0.8f, 0.3f, 0.1f})}},
-          {"eta 1.5 alpha 1e-4", {ClearCoat(1.5f, 1e-4f, {0.5f, 0.5f, 0.5f})}},
-          {"eta 2.5 alpha 0.5 white", {ClearCoat(2.5f, 0.5f, kWhite)}},
-          {"eta 1.3 alpha 1 black", {ClearCoat(1.3f, 1, {0, 0, 0})}}};
+  return {{"eta 1.5 alpha 0.1", {ClearCoat(1.5f, 0.1f, {0.8f, 0.3f, 0.1f})}, kDensityInFront},
+          {"eta 1.5 alpha 1e-4", {ClearCoat(1.5f, 1e-4f, {0.5f, 0.5f, 0.5f})}, kDensityInFront},
+          {"eta 2.5 alpha 0.5 white", {ClearCoat(2.5f, 0.5f, kWhite)}, kDensityInFront},
+          {"eta 1.3 alpha 1 black", {ClearCoat(1.3f, 1, {0, 0, 0})}, kDensityInFront}};
 }
 
 Sets ExamplesOf<ThinFilm>::sets() {
-  return {{"300 nm on rough gold", {ThinFilm{GgxConductor{{0.1f, 0.1f}, gold()}, {300, 1.5f}}}},
-          {"2000 nm on rough glass", {ThinFilm{GgxDielectric{{0.2f, 0.2f}, {1.5f}}, {2000, 1.8f}}}},
+  return {{"300 nm on rough gold",
+           {ThinFilm{GgxConductor{{0.1f, 0.1f}, gold()}, {300, 1.5f}}},
+           kDensityInFront},
+          {"2000 nm on rough glass",
+           {ThinFilm{GgxDielectric{{0.2f, 0.2f}, {1.5f}}, {2000, 1.8f}}},
+           kDensity},
           {"100 nm on rough glass, coated lens",
-           {ThinFilm{GgxDielectric{{0.05f, 0.05f}, {1.5f}}, {100, 1.38f}}}},
-          {"0 nm on rough copper", {ThinFilm{GgxConductor{{0.3f, 0.3f}, copper()}, {0, 1.33f}}}},
-          {"550 nm on gold", {ThinFilm{SmoothConductor{gold()}, {550, 1.33f}}}},
-          {"400 nm on glass", {ThinFilm{SmoothDielectric{{1.5f}}, {400, 1.33f}}}}};
+           {ThinFilm{GgxDielectric{{0.05f, 0.05f}, {1.5f}}, {100, 1.38f}}},
+           kDensity},
+          {"0 nm on rough copper",
+           {ThinFilm{GgxConductor{{0.3f, 0.3f}, copper()}, {0, 1.33f}}},
+           kDensityInFront},
+          {"550 nm on gold", {ThinFilm{SmoothConductor{gold()}, {550, 1.33f}}}, kAtomsInFront},
+          {"400 nm on glass", {ThinFilm{SmoothDielectric{{1.5f}}, {400, 1.33f}}}, kAtoms}};
 }
 
 Sets ExamplesOf<TwoSided>::sets() {
@@ -108,10 +107,11 @@ Sets ExamplesOf<TwoSided>::sets() {
   const Bsdf metal = GgxConductor{{0.1f, 0.3f}, copper()};
   const Bsdf mirror = SmoothConductor{kNoLoss};
   const Bsdf phong = ModifiedPhong{kWhite, 50};
-  return {
-      {"rough copper", {metal, TwoSided{0, 0}}},
-      {"diffuse, phong behind", {grey, phong, TwoSided{0, 1}}},
-      {"coat, mirror behind", {ClearCoat(1.5f, 0.2f, {0.5f, 0.5f, 0.5f}), mirror, TwoSided{0, 1}}}};
+  return {{"rough copper", {metal, TwoSided{0, 0}}, kDensity},
+          {"diffuse, phong behind", {grey, phong, TwoSided{0, 1}}, kDensity},
+          {"coat, mirror behind",
+           {ClearCoat(1.5f, 0.2f, {0.5f, 0.5f, 0.5f}), mirror, TwoSided{0, 1}},
+           {Gives::density, Gives::atoms}}};
 }
 
 Sets ExamplesOf<Mixture>::sets() {
@@ -120,13 +120,17 @@ Sets ExamplesOf<Mixture>::sets() {
   const Bsdf mirror = SmoothConductor{kNoLoss};
   const Bsdf glass = GgxDielectric{{0.2f, 0.2f}, {1.5f}};
   const Bsdf clear = SmoothDielectric{{1.5f}};
-  return {{"diffuse and rough gold", {grey, metal, Mixture{0, 1, 0.3f}}},
-          {"diffuse and mirror", {grey, mirror, Mixture{0, 1, 0.5f}}},
-          {"mixture in mixture", {grey, metal, Mixture{0, 1, 0.4f}, mirror, Mixture{2, 3, 0.2f}}},
-          {"rough and clear glass", {glass, clear, Mixture{0, 1, 0.25f}}},
-          {"two-sided mixture",
-           {grey, metal, Mixture{0, 1, 0.9f}, TwoSided{2, 0}, Mixture{3, 3, 0.5f}}},
-          {"nearly all of the second", {grey, metal, Mixture{0, 1, 0.999f}}}};
+  return {
+      {"diffuse and rough gold", {grey, metal, Mixture{0, 1, 0.3f}}, kDensityInFront},
+      {"diffuse and mirror", {grey, mirror, Mixture{0, 1, 0.5f}}, {Gives::both, Gives::nothing}},
+      {"mixture in mixture",
+       {grey, metal, Mixture{0, 1, 0.4f}, mirror, Mixture{2, 3, 0.2f}},
+       {Gives::both, Gives::nothing}},
+      {"rough and clear glass", {glass, clear, Mixture{0, 1, 0.25f}}, {Gives::both, Gives::both}},
+      {"two-sided mixture",
+       {grey, metal, Mixture{0, 1, 0.9f}, TwoSided{2, 0}, Mixture{3, 3, 0.5f}},
+       kDensity},
+      {"nearly all of the second", {grey, metal, Mixture{0, 1, 0.999f}}, kDensityInFront}};
 }
 
 }  // namespace plumbline::tests

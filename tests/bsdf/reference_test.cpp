@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/directions.h>
 #include <plumbline_tests/support.h>
 
 #include <array>
@@ -22,8 +23,6 @@ namespace {
 using namespace renderer;
 
 constexpr double kPi = std::numbers::pi;
-
-double radians(double degrees) { return degrees * kPi / 180; }
 
 TEST(Fresnel, DielectricsAgreeWithComplexAmplitudes) {
   for (const float eta : {0.4f, 1 / 1.5f, 0.99f, 1.01f, 1.5f, 2.5f}) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <plumbline_tests/directions.h>
 #include <plumbline_tests/support.h>
 
 #include <cstdio>
@@ -30,13 +31,9 @@ inline std::vector<Vec3> looked_from(const std::vector<double>& degrees, bool ba
   std::vector<Vec3> directions;
   double phi = 0.3;
   for (const double d : degrees) {
-    const double theta = d * std::numbers::pi / 180;
     phi += 2.1;
-    for (const double side : {1.0, -1.0}) {
-      if (side < 0 && !back) continue;
-      directions.push_back({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                            side * std::cos(theta)});
-    }
+    directions.push_back(tests::direction_at(d, phi));
+    if (back) directions.push_back(tests::direction_at(d, phi, false));
   }
   return directions;
 }
