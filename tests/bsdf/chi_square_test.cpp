@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/directions.h>
 #include <plumbline_tests/support.h>
 
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -31,10 +31,10 @@ std::vector<double> angles() {
   return nightly() ? std::vector<double>{0, 30, 60, 80, 88} : std::vector<double>{60};
 }
 
-verify::Vec3 direction_of(double degrees, bool front, double azimuth) {
-  const double theta = degrees * std::numbers::pi / 180;
-  return {std::sin(theta) * std::cos(azimuth), std::sin(theta) * std::sin(azimuth),
-          front ? std::cos(theta) : -std::cos(theta)};
+/// The samples of a BSDF in float against the density that it states for them.
+verify::CheckResult check(const std::string& name, const verify::ErasedBsdf& bsdf,
+                          const verify::Vec3& wo, const verify::BsdfOptions& options) {
+  return verify::check_chi_square(verify::bsdf_pair(name, bsdf, wo, options), options.contract);
 }
 
 template <class B>
@@ -51,9 +51,8 @@ TYPED_TEST(ChiSquareInFloat, SamplesFollowTheDensityFromBothFaces) {
         const verify::BsdfOptions options = options_for(name, example.eta);
         verify::Random random(options.contract.seed, 20);
         const double azimuth = 2 * std::numbers::pi * random.uniform();
-        const verify::Vec3 wo = direction_of(degrees, front, azimuth);
-        expect_verdict(verify::check_chi_square(
-            verify::bsdf_pair(name, as_rendered(example.bsdf), wo, options), options.contract));
+        expect_verdict(
+            check(name, as_rendered(example.bsdf), direction_at(degrees, azimuth, front), options));
       }
     }
   }
@@ -73,11 +72,30 @@ struct WithoutMasking {
 };
 
 TEST(NegativeControl, ADensityWithoutMaskingFailsTheChiSquareCheck) {
-  const verify::BsdfOptions options = options_for("without masking", 1);
-  verify::CheckResult result = verify::check_chi_square(
-      verify::bsdf_pair("without masking", verify::erase_bsdf<Vec3f, Vec2f>(WithoutMasking{}),
-                        direction_of(80, true, 0.3), options),
-      options.contract);
+  verify::CheckResult result =
+      check("without masking", verify::erase_bsdf<Vec3f, Vec2f>(WithoutMasking{}),
+            direction_at(80, 0.3), options_for("without masking", 1));
+  result.expected = verify::Verdict::fail;
+  expect_verdict(result);
+}
+
+TEST(ChiSquareOfFloats, OfTheLambertianAlongTheNormalAndNextToTheHorizon) {
+  const Example grey = examples_of<Lambertian>().front();
+  for (const double degrees : {0.0, 84.0}) {
+    const std::string name = grey.name + "/" + std::to_string(static_cast<int>(degrees)) + "/float";
+    expect_verdict(
+        check(name, as_rendered(grey.bsdf), direction_at(degrees, 0.1), options_for(name, 1)));
+  }
+}
+
+TEST(NegativeControl, ALambertianDensityWithoutOneOverPiFails) {
+  const Example grey = examples_of<Lambertian>().front();
+  verify::ErasedBsdf bsdf = as_rendered(grey.bsdf);
+  bsdf.pdf = [right = bsdf.pdf](const verify::Vec3& wo, const verify::Vec3& wi) {
+    return right(wo, wi) * std::numbers::pi;
+  };
+  const std::string name = "control/lambertian, density without 1/pi";
+  verify::CheckResult result = check(name, bsdf, {0, 0, 1}, options_for(name, 1));
   result.expected = verify::Verdict::fail;
   expect_verdict(result);
 }

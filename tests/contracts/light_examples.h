@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -14,6 +15,10 @@
 
 namespace plumbline::tests {
 
+/// What there is to sample of a light from a point. Stated with each example: what a suite expects
+/// of a light must not be asked of that light.
+enum class Seen { density, atom, nothing };
+
 /// A light with a point that it is looked at from.
 struct LightExample {
   std::string name;  ///< "SphereLight/near"
@@ -23,6 +28,8 @@ struct LightExample {
   /// Where the density jumps inside of its support: what makes it even. No cubature certifies its
   /// integral over the sphere then.
   std::optional<EvenChart> chart{};
+
+  Seen seen = Seen::density;
 };
 
 /// Lights worth checking of one alternative of `renderer::Light`. The type list drives the tests:
@@ -36,6 +43,9 @@ struct LightExamples {
 using NamedLights = std::vector<LightExample>;
 
 inline constexpr renderer::Rgbf kRadiance{1, 2, 3};
+
+/// A point of which no coordinate is that of a light's centre, so that no symmetry hides an error.
+inline constexpr renderer::Vec3f kBeside{0.1f, -0.2f, 0.3f};
 
 template <>
 struct LightExamples<renderer::SphereLight> {
@@ -53,7 +63,9 @@ struct LightExamples<renderer::SphereLight> {
          {0, 0, 0}},
         {"SphereLight/outside of an inward one",
          SphereLight{{0, 0, 0}, 2, true, kRadiance},
-         {3, 0, 0}}};
+         {3, 0, 0}},
+        {"SphereLight/beside", SphereLight{{0.5f, 1, 3}, 0.7f, false, kRadiance}, kBeside},
+        {"SphereLight/inside, beside", SphereLight{{0.5f, 1, 0}, 2, true, kRadiance}, kBeside}};
   }
 };
 
@@ -73,21 +85,28 @@ struct LightExamples<renderer::RectangleLight> {
     const RectangleLight large{{-4, 3, -2}, {8, 0, 0}, {0, 0, 5}, {0, -1, 0}, kRadiance};
     RectangleLight two_sided = ceiling;
     two_sided.two_sided = true;
-    return {{"RectangleLight/two-sided, in front", two_sided, {0.3f, 0.2f, 0}},
-            {"RectangleLight/two-sided, behind", two_sided, {4, 1, 2.5f}},
-            {"RectangleLight/two-sided by solid angle, behind",
-             by_solid_angle(two_sided),
-             {0.3f, 0.2f, 4}},
-            {"RectangleLight/ceiling", ceiling, {0.3f, 0.2f, 0}},
-            {"RectangleLight/from the side", ceiling, {4, 1, 1.5f}},
-            {"RectangleLight/from behind", ceiling, {0, 0, 3}},
-            {"RectangleLight/large", large, {0, 0, 0}},
-            {"RectangleLight/by solid angle, overhead", by_solid_angle(ceiling), {0.3f, 0.2f, 0}},
-            {"RectangleLight/by solid angle, from the side", by_solid_angle(ceiling), {4, 1, 1.5f}},
-            {"RectangleLight/by solid angle, from behind", by_solid_angle(ceiling), {0, 0, 3}},
-            {"RectangleLight/by solid angle, near", by_solid_angle(large), {-1, 2.999f, 1}},
-            // Too small for a solid angle: the same light falls back to its area.
-            {"RectangleLight/by solid angle, far", by_solid_angle(ceiling), {0, 0, -2046}}};
+    return {
+        {"RectangleLight/two-sided, in front", two_sided, {0.3f, 0.2f, 0}},
+        {"RectangleLight/two-sided, behind", two_sided, {4, 1, 2.5f}},
+        {"RectangleLight/two-sided by solid angle, behind",
+         by_solid_angle(two_sided),
+         {0.3f, 0.2f, 4}},
+        {"RectangleLight/ceiling", ceiling, {0.3f, 0.2f, 0}},
+        {"RectangleLight/from the side", ceiling, {4, 1, 1.5f}},
+        {"RectangleLight/from behind", ceiling, {0, 0, 3}, {}, Seen::nothing},
+        {"RectangleLight/large", large, {0, 0, 0}},
+        {"RectangleLight/by solid angle, overhead", by_solid_angle(ceiling), {0.3f, 0.2f, 0}},
+        {"RectangleLight/by solid angle, from the side", by_solid_angle(ceiling), {4, 1, 1.5f}},
+        {"RectangleLight/by solid angle, from behind",
+         by_solid_angle(ceiling),
+         {0, 0, 3},
+         {},
+         Seen::nothing},
+        {"RectangleLight/by solid angle, near", by_solid_angle(large), {-1, 2.999f, 1}},
+        // Too small for a solid angle: the same light falls back to its area.
+        {"RectangleLight/by solid angle, far", by_solid_angle(ceiling), {0, 0, -2046}},
+        {"RectangleLight/beside",
+         RectangleLight{{-1, -0.5f, 2}, {2, 0, 0}, {0, 1.5f, 0}, {0, 0, -1}, kRadiance}, kBeside}};
   }
 };
 
@@ -97,7 +116,8 @@ struct LightExamples<renderer::DiskLight> {
     using renderer::DiskLight;
     const renderer::Vec3f tilted = renderer::normalize(renderer::Vec3f{1, -2, -2});
     return {{"DiskLight/overhead", DiskLight{{0, 0, 2}, {0, 0, -1}, 0.7f, kRadiance}, {0, 0, 0}},
-            {"DiskLight/tilted", DiskLight{{-1, 2, 3}, tilted, 3, kRadiance}, {0, 0.5f, 0}}};
+            {"DiskLight/tilted", DiskLight{{-1, 2, 3}, tilted, 3, kRadiance}, {0, 0.5f, 0}},
+            {"DiskLight/beside", DiskLight{{0.5f, 0.3f, 1}, {0, 0, -1}, 1, kRadiance}, kBeside}};
   }
 };
 
@@ -107,12 +127,19 @@ struct LightExamples<renderer::TriangleLight> {
     using renderer::TriangleLight;
     const TriangleLight overhead{{-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, {0, 0, -1}, kRadiance};
     const TriangleLight thin{{-1, 0, 1}, {0, 0.2f, 0}, {5, 0, 0}, {0, 0, -1}, kRadiance};
-    return {{"TriangleLight/overhead", overhead, {0, 0, 0}},
-            {"TriangleLight/thin", thin, {0.3f, 0.1f, 0}},
-            {"TriangleLight/by solid angle, overhead", by_solid_angle(overhead), {0, 0, 0}},
-            {"TriangleLight/by solid angle, from the side", by_solid_angle(overhead), {-2, -3, 1}},
-            {"TriangleLight/by solid angle, from behind", by_solid_angle(overhead), {0, 0, 2.5f}},
-            {"TriangleLight/by solid angle, far", by_solid_angle(overhead), {0, 0, -2046}}};
+    return {
+        {"TriangleLight/overhead", overhead, {0, 0, 0}},
+        {"TriangleLight/thin", thin, {0.3f, 0.1f, 0}},
+        {"TriangleLight/by solid angle, overhead", by_solid_angle(overhead), {0, 0, 0}},
+        {"TriangleLight/by solid angle, from the side", by_solid_angle(overhead), {-2, -3, 1}},
+        {"TriangleLight/by solid angle, from behind",
+         by_solid_angle(overhead),
+         {0, 0, 2.5f},
+         {},
+         Seen::nothing},
+        {"TriangleLight/by solid angle, far", by_solid_angle(overhead), {0, 0, -2046}},
+        {"TriangleLight/beside",
+         TriangleLight{{-1, 0, 2}, {2, 0.5f, 0}, {0.25f, 2, 0}, {0, 0, -1}, kRadiance}, kBeside}};
   }
 };
 
@@ -211,7 +238,8 @@ struct LightExamples<renderer::SunAndSky> {
 template <>
 struct LightExamples<renderer::PointLight> {
   static NamedLights all() {
-    return {{"PointLight", renderer::PointLight{{1, -2, 3}, kRadiance}, {0.5f, 0, 0}}};
+    return {
+        {"PointLight", renderer::PointLight{{1, -2, 3}, kRadiance}, {0.5f, 0, 0}, {}, Seen::atom}};
   }
 };
 
@@ -221,6 +249,7 @@ template <class Variant, std::size_t... i>
 NamedLights examples_of_each(std::index_sequence<i...>) {
   NamedLights all;
   const auto append = [&all](const NamedLights& some) {
+    if (some.empty()) throw std::logic_error("a light has no examples");
     all.insert(all.end(), some.begin(), some.end());
   };
   (append(LightExamples<std::variant_alternative_t<i, Variant>>::all()), ...);
@@ -235,6 +264,14 @@ template <class Variant = renderer::Light>
 NamedLights all_light_examples() {
   return detail::examples_of_each<Variant>(
       std::make_index_sequence<std::variant_size_v<Variant>>());
+}
+
+/// The one example of a name.
+inline LightExample light_example(const std::string& name) {
+  for (const LightExample& example : all_light_examples()) {
+    if (example.name == name) return example;
+  }
+  throw std::logic_error("no light's example is called " + name);
 }
 
 }  // namespace plumbline::tests
