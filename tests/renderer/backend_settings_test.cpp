@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,42 +19,57 @@ namespace {
 using namespace renderer;
 
 /// Every scene in which both backends round alike: diffuse, metal, glass, clear coat, mixtures and
-/// Phong; in colour; rectangles, triangles, a point and the sky; one light, some that differ and a thousand.
-constexpr std::array kScenes{"tests/renderer/lamps",
-                             "bench/scenes/cornell",
-                             "analytic/scenes/lights_1000",
-                             "analytic/scenes/furnace_cube",
-                             "analytic/scenes/triangle_light",
-                             "analytic/scenes/point_glossy",
-                             "analytic/scenes/sidewalk",
-                             "analytic/scenes/phong_polygon"};
+/// Phong; in colour; rectangles, triangles, a point and the sky; one light, some that differ and a
+/// thousand.
+constexpr std::array kScenes{"tests/renderer/lamps",           "bench/scenes/cornell",
+                             "analytic/scenes/lights_1000",    "analytic/scenes/furnace_cube",
+                             "analytic/scenes/triangle_light", "analytic/scenes/point_glossy",
+                             "analytic/scenes/sidewalk",       "analytic/scenes/phong_polygon"};
 /// Each with a loop of its own in the batched backend, or with the one for all others.
 const std::array kWeightings{Weighting(Heuristic::balance), Weighting(Heuristic::power),
                              Weighting(Heuristic::power, 1.5), Weighting(Heuristic::cutoff),
                              Weighting(Heuristic::maximum)};
 constexpr std::array kDepths{1, 2, 5, -1};
 constexpr std::array kRouletteDepths{1, 3, kNoRoulette};
-/// Samples of BSDF and light at the first vertex, which only `mis` looks at.
-constexpr std::array kCounts{std::pair{1, 1}, std::pair{2, 3}};
+/// Each strategy; of MIS with one sample of each technique, which is the batched backend's own, and
+/// with more.
+struct Techniques {
+  Strategy strategy;
+  int bsdf = 1, light = 1;  // samples at the first vertex
+};
+constexpr std::array kTechniques{Techniques{Strategy::bsdf},      Techniques{Strategy::light},
+                                 Techniques{Strategy::uniform},   Techniques{Strategy::mis},
+                                 Techniques{Strategy::mis, 2, 3}, Techniques{Strategy::one_sample},
+                                 Techniques{Strategy::average}};
 
-enum Setting : std::size_t { kScene, kStrategy, kWeighting, kDepth, kRoulette, kSampler, kSelection, kCount };
+enum Setting : std::size_t {
+  kScene,
+  kTechnique,
+  kWeighting,
+  kDepth,
+  kRoulette,
+  kSampler,
+  kSelection
+};
 
 /// Paths of unlimited depth without roulette are refused.
 Settings all_settings() {
-  return {{kScenes.size(), kStrategies.size(), kWeightings.size(), kDepths.size(),
-           kRouletteDepths.size(), kSamplers.size(), kLightSelections.size(), kCounts.size()},
+  return {{kScenes.size(), kTechniques.size(), kWeightings.size(), kDepths.size(),
+           kRouletteDepths.size(), kSamplers.size(), kLightSelections.size()},
           {{{kDepth, 3}, {kRoulette, 2}}}};
 }
 
 RenderOptions options_of(const SettingsRow& row) {
   RenderOptions options;
   options.samples_per_pixel = kSmallSamples;
-  options.path.strategy = kStrategies.at(row[kStrategy]);
+  const Techniques& techniques = kTechniques.at(row[kTechnique]);
+  options.path.strategy = techniques.strategy;
+  options.path.bsdf_samples = techniques.bsdf;
+  options.path.light_samples = techniques.light;
   options.path.heuristic = kWeightings.at(row[kWeighting]);
   options.path.max_depth = kDepths.at(row[kDepth]);
   options.path.rr_depth = kRouletteDepths.at(row[kRoulette]);
   options.sampler = kSamplers.at(row[kSampler]);
-  std::tie(options.path.bsdf_samples, options.path.light_samples) = kCounts.at(row[kCount]);
   return options;
 }
 
@@ -118,8 +132,8 @@ TEST(BackendSettings, AnyThreeGiveTheSameBitsOnFlatSurfaces) {
 TEST(BackendSettings, EachIsSeenInTheImage) {
   SceneCache scenes;
   // Lamps that differ; roulette from depth 3 on.
-  const SettingsRow base{0, 3, 0, 2, 1, 0, 0, 0};
-  for (std::size_t setting = kStrategy; setting < base.size(); ++setting) {
+  const SettingsRow base{0, 3, 0, 2, 1, 0, 0};
+  for (std::size_t setting = kTechnique; setting < base.size(); ++setting) {
     SettingsRow row = base;
     const auto image = [&] {
       return render_both(scenes.get(row[kScene], row[kSelection]), options_of(row));
@@ -139,8 +153,8 @@ TEST(BackendSettings, AnAllocationOfSamplesDoesNotAskWhichBackend) {
   SceneCache scenes;
   for (const Allocation policy : kAllocations) {
     for (std::size_t selection = 0; selection < kLightSelections.size(); ++selection) {
-      SCOPED_TRACE(std::string(name(policy)).append(", ").append(
-          name(kLightSelections.at(selection))));
+      SCOPED_TRACE(
+          std::string(name(policy)).append(", ").append(name(kLightSelections.at(selection))));
       RenderOptions options;
       options.samples_per_pixel = kSmallSamples;
       options.path.max_depth = 2;

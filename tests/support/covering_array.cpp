@@ -9,10 +9,9 @@ namespace plumbline::tests {
 namespace {
 
 bool clash(const Settings& settings, const SettingValue& a, const SettingValue& b) {
-  return std::any_of(
-      settings.clashes.begin(), settings.clashes.end(), [&](const auto& pair) {
-        return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
-      });
+  return std::any_of(settings.clashes.begin(), settings.clashes.end(), [&](const auto& pair) {
+    return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
+  });
 }
 
 /// Calls `visit` with every combination that extends `begun` to `strength` values.

@@ -27,8 +27,8 @@ using SettingsRow = std::vector<std::size_t>;
 /// Values of different settings that go together, in the settings' order.
 using Combination = std::vector<SettingValue>;
 
-/// The combinations of `strength` values that no row has: none, if the rows cover them. With no rows
-/// all there are.
+/// The combinations of `strength` values that no row has: none, if the rows cover them. With no
+/// rows all there are.
 std::vector<Combination> uncovered(const Settings& settings, std::size_t strength,
                                    const std::vector<SettingsRow>& rows);
 
