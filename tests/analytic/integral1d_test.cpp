@@ -38,6 +38,8 @@ double integrate(const Integral1d& integral, const std::function<double(double)>
 }
 
 TEST(Integral1d, ValuesAgreeWithQuadrature) {
+  ASSERT_EQ(known_integrals().size(), 7u);
+  ASSERT_GE(combination_integrals().size(), 34u);  // 200 combinations with six rules
   for (const Integral1d& integral : all_integrals()) {
     EXPECT_NEAR(integrate(integral, integral.f), integral.value, 1e-11 * integral.value)
         << integral.name;

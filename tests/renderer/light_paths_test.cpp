@@ -55,6 +55,7 @@ TEST(PointLightPaths, EverySampleIsTheClosedFormAndNothingElseTakesAShareOfIt) {
     // ρ/π I cosθ/d²
     const double d2 = (x - 1) * (x - 1) + (y - 2) * (y - 2) + 9;
     const double expected = kAlbedo / renderer::pi<double>() * 9 * (3 / std::sqrt(d2)) / d2;
+    int bright = 0;
     for (std::uint64_t sample = 0; sample < 100; ++sample) {
       renderer::Sampler random(renderer::SamplerType::independent, 1, 0, sample);
       EXPECT_NEAR(look_down(scene, Strategy::light, x, y, random), expected, 1e-5 * expected);
@@ -63,7 +64,11 @@ TEST(PointLightPaths, EverySampleIsTheClosedFormAndNothingElseTakesAShareOfIt) {
       // Light or BSDF with probability 1/2: twice the light, or nothing.
       const double one = look_down(scene, Strategy::one_sample, x, y, random);
       EXPECT_TRUE(one == 0 || std::abs(one / expected - 2) < 2e-5) << one / expected;
+      bright += one > 0 ? 1 : 0;
     }
+    // Of 100 with probability 1/2: outside with 1e-9.
+    EXPECT_GE(bright, 20);
+    EXPECT_LE(bright, 80);
   }
 }
 
