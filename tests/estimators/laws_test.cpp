@@ -75,7 +75,13 @@ TEST(Laws, NoHeuristicBeatsBalanceByMoreThanVeachsBound) {
 TEST(Laws, NoRandomWeightsBeatBalanceByMoreThanVeachsBound) {
   constexpr std::size_t kCells = 8;
   verify::Random random(check_seed("random weights"));
+  std::size_t without_variance = 0;
   for (const Integral1d& integral : known_integrals()) {
+    // On the line the narrow density has infinite variance wherever it has a weight far out.
+    if (integral.infinite_variance[0]) {
+      ++without_variance;
+      continue;
+    }
     const std::size_t m = integral.densities.size();
     std::vector<double> edges;
     for (std::size_t c = 1; c < kCells; ++c) {
@@ -96,8 +102,6 @@ TEST(Laws, NoRandomWeightsBeatBalanceByMoreThanVeachsBound) {
         }
         return raw[cell * m + i] / total;
       };
-      // On the line the narrow density has infinite variance wherever it has a weight far out.
-      if (integral.infinite_variance[0]) continue;
       const std::vector<int> counts(m, 1);
       const Moments moments = weighted_moments(integral, counts, weight_of, edges);
       EXPECT_NEAR(moments.mean, integral.value, 1e-9 * integral.value);
@@ -106,6 +110,7 @@ TEST(Laws, NoRandomWeightsBeatBalanceByMoreThanVeachsBound) {
           << integral.name;
     }
   }
+  EXPECT_EQ(without_variance, 1u);
 }
 
 TEST(Laws, NegativeWeightsCanBeatBalanceByMore) {
