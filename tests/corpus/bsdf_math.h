@@ -5,8 +5,9 @@
 #include <optional>
 
 /// What every renderer has a header of its own for. Written for the corpus, apart from the one
-/// under test elsewhere in this repository and from the library.
-namespace plumbline::tests::corpus {
+/// under test elsewhere in this repository and from the library. The pairs have such a header too:
+/// names that both have are kept apart by their inline namespaces.
+namespace plumbline::tests::corpus::inline bsdf_math {
 
 template <class T>
 inline constexpr T kPi = T(3.14159265358979323846);
@@ -142,4 +143,4 @@ struct SampledRgb {
   T pdf;
 };
 
-}  // namespace plumbline::tests::corpus
+}  // namespace plumbline::tests::corpus::inline bsdf_math

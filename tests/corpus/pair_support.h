@@ -19,7 +19,7 @@
 ///
 /// A technique is a plain struct with `sample` and `pdf`, as renderers have them. `fault` 0 is
 /// correct; any other number makes the one small edit that the case of that number describes.
-namespace plumbline::tests::corpus {
+namespace plumbline::tests::corpus::inline pair_support {
 
 using Domain = verify::Domain;
 using Pair = verify::SamplingPair;
@@ -206,4 +206,4 @@ inline Case correct(std::string name, std::function<Pair()> pair) {
   return twin(std::move(name), {}, {}, std::move(pair));
 }
 
-}  // namespace plumbline::tests::corpus
+}  // namespace plumbline::tests::corpus::inline pair_support

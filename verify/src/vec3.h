@@ -20,4 +20,11 @@ inline Vec3 sum(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1]
 
 inline Vec3 normalized(const Vec3& a) { return scaled(a, 1 / length(a)); }
 
+/// @param axis   unit
+/// @param angle  [rad]
+inline Vec3 turned_around(const Vec3& x, const Vec3& axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return sum(sum(scaled(x, c), scaled(cross(axis, x), s)), scaled(axis, dot(axis, x) * (1 - c)));
+}
+
 }  // namespace plumbline::verify

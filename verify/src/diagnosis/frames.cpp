@@ -13,11 +13,6 @@ namespace plumbline::verify {
 
 namespace {
 
-Vec3 turned_around(const Vec3& x, const Vec3& axis, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return sum(sum(scaled(x, c), scaled(cross(axis, x), s)), scaled(axis, dot(axis, x) * (1 - c)));
-}
-
 /// Mean direction of the samples, and of the pdf: over grids, which see borders better than random
 /// numbers do.
 std::pair<Vec3, Vec3> mean_directions(const ViewEvidence& view) {

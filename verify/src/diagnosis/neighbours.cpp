@@ -172,17 +172,13 @@ bool takes_more_at_times(const SamplingPair& pair) {
 
 namespace {
 
-Vec3 turned(const Vec3& w, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * w[0] - s * w[1], s * w[0] + c * w[1], w[2]};
-}
-
 /// Across the plane of incidence, which contains the normal and wo.
 double across(const Vec3& wo, const Vec3& x) { return wo[0] * x[1] - wo[1] * x[0]; }
 
 bool is_symmetric(const ViewEvidence& view, const std::vector<Vec3>& points) {
   const Vec3& wo = *view.wo;
   const double r2 = wo[0] * wo[0] + wo[1] * wo[1];
+  const auto turned = [](const Vec3& w) { return turned_around(w, {0, 0, 1}, 1.1); };
   double near = 0, tested = 0;
   for (const Vec3& x : points) {
     const double here = pdf_at(view, x);
@@ -190,7 +186,7 @@ bool is_symmetric(const ViewEvidence& view, const std::vector<Vec3>& points) {
     const double a = across(wo, x) / r2;
     const Vec3 mirrored = {x[0] + 2 * a * wo[1], x[1] - 2 * a * wo[0], x[2]};
     const double there = pdf_at(view, mirrored);
-    const double around = pdf_at(view, turned(wo, 1.1), turned(x, 1.1));
+    const double around = pdf_at(view, turned(wo), turned(x));
     ++tested;
     const double tolerance = 1e-3 * here;
     near += std::abs(there - here) < tolerance && std::abs(around - here) < tolerance ? 1 : 0;
