@@ -119,7 +119,8 @@ TEST(AllocatedRender, SmallLightGetsTheLightSamples) {
   description.camera.height = 6;
   auto options = allocated(Allocation::root_nodes, 7);
   options.samples_per_pixel = 400;
-  EXPECT_EQ(final_shares(render(make_scene(description), options), 4), std::vector<float>(48, 0.1f));
+  EXPECT_EQ(final_shares(render(make_scene(description), options), 4),
+            std::vector<float>(48, 0.1f));
 }
 
 TEST(AllocatedRender, RefusesWhatDoesNotFit) {
