@@ -7,7 +7,8 @@
 /// What every renderer has a header of its own for. Written for the corpus, apart from the one
 /// under test elsewhere in this repository and from the library. The pairs have such a header too:
 /// names that both have are kept apart by their inline namespaces.
-namespace plumbline::tests::corpus::inline bsdf_math {
+namespace plumbline::tests::corpus {
+inline namespace bsdf_math {
 
 template <class T>
 inline constexpr T kPi = T(3.14159265358979323846);
@@ -143,4 +144,5 @@ struct SampledRgb {
   T pdf;
 };
 
-}  // namespace plumbline::tests::corpus::inline bsdf_math
+}  // namespace bsdf_math
+}  // namespace plumbline::tests::corpus

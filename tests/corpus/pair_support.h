@@ -19,7 +19,8 @@
 ///
 /// A technique is a plain struct with `sample` and `pdf`, as renderers have them. `fault` 0 is
 /// correct; any other number makes the one small edit that the case of that number describes.
-namespace plumbline::tests::corpus::inline pair_support {
+namespace plumbline::tests::corpus {
+inline namespace pair_support {
 
 using Domain = verify::Domain;
 using Pair = verify::SamplingPair;
@@ -206,4 +207,5 @@ inline Case correct(std::string name, std::function<Pair()> pair) {
   return twin(std::move(name), {}, {}, std::move(pair));
 }
 
-}  // namespace plumbline::tests::corpus::inline pair_support
+}  // namespace pair_support
+}  // namespace plumbline::tests::corpus
