@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include <plumbline/calibration/experiments.h>
-#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/reports/results.h>
 

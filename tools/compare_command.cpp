@@ -13,7 +13,6 @@
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
-#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/verify/image.h>

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/scene_file/nearest_name.h>
 

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <system_error>
 
-#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
 

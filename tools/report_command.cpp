@@ -10,7 +10,6 @@
 #include <system_error>
 #include <vector>
 
-#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/reports/page.h>

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <system_error>
 
-#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/scene_file/nearest_name.h>
 

@@ -1,8 +1,13 @@
 #include <plumbline/renderer/assembly/description.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <plumbline/renderer/core/scene/geometry.h>
 

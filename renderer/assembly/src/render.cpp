@@ -1,5 +1,6 @@
 #include <plumbline/renderer/assembly/render.h>
 
+#include <memory>
 #include <utility>
 
 #include <plumbline/renderer/batched/batch.h>
@@ -10,8 +11,7 @@
 
 namespace plumbline::renderer {
 
-std::function<std::unique_ptr<PixelSampler>()> pixel_samplers(const Scene& scene,
-                                                              const RenderOptions& options) {
+SamplerFactory pixel_samplers(const Scene& scene, const RenderOptions& options) {
   const std::shared_ptr<const BsdfKernels> kernels = batched_bsdfs(scene.bsdfs());
   return [&scene, &options, kernels] {
     std::unique_ptr<PixelSampler> sampler;

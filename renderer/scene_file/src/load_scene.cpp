@@ -113,7 +113,7 @@ SceneDescription load_scene(const std::filesystem::path& file,
     Reading in{document.ids(), size};
     in.scene.file = file;
     read_scene(document, in);
-    return in.scene;
+    return std::move(in.scene);
   } catch (const Refusal& refusal) {
     const auto at = static_cast<std::size_t>(refusal.offset);
     const std::string line = refusal.offset < 0 ? "" : fmt::format(":{}", line_at(text, at));

@@ -60,14 +60,13 @@ Object::Object(Node node, const ObjectType& type) : node_(node) {
 void Object::add(Node child, const PropertyRow& row) {
   std::vector<Node>& given = given_.at(row.name);
   given.push_back(child);
-  const std::string tags = in_brackets(row.tags);
   if (!row.parse) {
     if (given.size() < 2 || row.range.high > 1) return;
-    refuse(child, "{} may hold one {} only", label(node_), tags);
+    refuse(child, "{} may hold one {} only", label(node_), in_brackets(row.tags));
   }
   if (given.size() > 1) refuse(child, "{} has a second property \"{}\"", label(node_), row.name);
   if (!contains(row.tags, child.name())) {
-    refuse(child, "{} of {} must be a {}", label(child), label(node_), tags);
+    refuse(child, "{} of {} must be a {}", label(child), label(node_), in_brackets(row.tags));
   }
   values_[row.name] = row.parse(child, text_of(child), row.range);
 }

@@ -36,7 +36,7 @@ class ScalarSampler final : public PixelSampler {
 class RenderLoop {
  public:
   RenderLoop(const Camera& camera, const SamplingOptions& options,
-             const std::function<std::unique_ptr<PixelSampler>()>& make_sampler)
+             const SamplerFactory& make_sampler)
       : options_(options),
         threads_(options.threads),
         film_(camera.width(), camera.height()),
@@ -133,7 +133,7 @@ std::unique_ptr<PixelSampler> make_scalar_sampler(const Scene& scene, const Path
 }
 
 LoopResult run_render_loop(const Camera& camera, const SamplingOptions& options,
-                           const std::function<std::unique_ptr<PixelSampler>()>& make_sampler) {
+                           const SamplerFactory& make_sampler) {
   if (options.sampler == SamplerType::sobol && options.relative_error > 0 &&
       options.replicates < 2) {
     throw InputError("an error limit needs at least 2 replicates of Sobol points to see an error");

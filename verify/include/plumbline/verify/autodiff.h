@@ -193,8 +193,8 @@ inline double number_towards_ends(Random& random, double nearest) {
 ///                expression templates; may be left out
 /// @param sample  template over its scalar: (T u, T v) to an optional point, with x, y (, z) or
 ///                operator[]
-/// @param pdf     of a point in double, as a Vec3; with a wider scalar also of a std::array of
-/// three
+/// @param pdf     of a point in double, as a Vec3; with a wider scalar also of three of those in a
+///                std::array
 template <class Wider = double, class Sample, class Pdf>
 CheckResult check_jacobian_autodiff(const std::string& subject, const Domain& domain,
                                     const Sample& sample, const Pdf& pdf,

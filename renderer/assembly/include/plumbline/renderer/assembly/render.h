@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -40,12 +38,11 @@ struct RenderResult : LoopResult {
 /// @param iterations  as rendered with
 std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterations);
 
-/// What makes the samplers of `render`, without an allocation: one per thread, of the backend that
-/// is asked for, or of `scalar` where the batched one does not know the strategy.
+/// Makes the samplers of `render` without an allocation: of the backend that is asked for, or of
+/// `scalar` where the batched one does not know the strategy.
 ///
 /// @param scene, options  kept, not copied
-std::function<std::unique_ptr<PixelSampler>()> pixel_samplers(const Scene& scene,
-                                                              const RenderOptions& options);
+SamplerFactory pixel_samplers(const Scene& scene, const RenderOptions& options);
 
 /// Renders an image. The same scene, path options, seed and sample count give the same bits,
 /// whatever the number of threads or passes.

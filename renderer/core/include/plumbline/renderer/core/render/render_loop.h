@@ -44,6 +44,9 @@ class PixelSampler {
   PathCounters counters;
 };
 
+/// Makes a sampler: called once per thread.
+using SamplerFactory = std::function<std::unique_ptr<PixelSampler>()>;
+
 /// One path after the other: the reference that other samplers are held against.
 /// @param scene, path  kept, not copied
 std::unique_ptr<PixelSampler> make_scalar_sampler(const Scene& scene, const PathOptions& path,
@@ -61,10 +64,8 @@ inline constexpr std::size_t kSamplesPerTile = 2048;
 
 /// Renders an image. The same samples give the same bits, whatever the number of threads or passes.
 ///
-/// @param make_sampler  called once per thread
-/// @throws InputError   for an error limit on one replicate of Sobol points, whose error is not
-///                      known
+/// @throws InputError for an error limit on one replicate of Sobol points, whose error is not known
 LoopResult run_render_loop(const Camera& camera, const SamplingOptions& options,
-                           const std::function<std::unique_ptr<PixelSampler>()>& make_sampler);
+                           const SamplerFactory& make_sampler);
 
 }  // namespace plumbline::renderer
