@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
@@ -25,27 +26,65 @@ double masking(const Roughness& roughness, const Vec3& w) {
 /// Where a normal sends the light.
 using Scatter = std::function<std::optional<Vec3>(const Vec3& normal, double cosine)>;
 
+/// Where along a turn a condition begins or ceases to hold, after which nothing is smooth; at both ends too.
+template <class Condition>
+std::vector<double> borders_along_turn(const Condition& holds) {
+  constexpr int kSteps = 48, kHalvings = 30;
+  std::vector<double> borders{0};
+  double from = 0;
+  bool before = holds(from);
+  for (int i = 1; i <= kSteps; ++i) {
+    const double to = 2 * kPi * i / kSteps;
+    const bool after = holds(to);
+    if (after != before) {
+      double low = from, high = to;
+      for (int k = 0; k < kHalvings; ++k) {
+        const double middle = (low + high) / 2;
+        (holds(middle) == before ? low : high) = middle;
+      }
+      borders.push_back((low + high) / 2);
+    }
+    from = to;
+    before = after;
+  }
+  borders.push_back(2 * kPi);
+  return borders;
+}
+
 /// The mean over GGX normals of share · G1 G1 (wo·h)/(cosθo cosθh). With slopes αr(cosφ, sinφ) the
 /// distribution is 1/(π (1 + r²)²) r dr dφ, so t = r²/(1 + r²) and φ are uniform.
 double mean_over_normals(const Roughness& roughness, const Vec3& wo, const Share& share,
                          const Scatter& scatter) {
   const double mask = masking(roughness, wo);
-  const auto at = [&](double t, double phi) {
-    const double r = std::sqrt(t / (1 - t));
-    Vec3 h{roughness.x * r * std::cos(phi), roughness.y * r * std::sin(phi), 1};
-    const double along = dot(wo, h);  // (wo·h)/cosθh
-    if (!(along > 0)) return 0.0;
-    h = normalize(h);
-    const double cosine = std::min(dot(wo, h), 1.0);
-    const std::optional<Vec3> wi = scatter(h, cosine);
-    return wi ? share(cosine) * mask * masking(roughness, *wi) * along / wo.z : 0.0;
+  struct Scattered {
+    Vec3 wi;
+    double cosine, along;  // wo·h, (wo·h)/cosθh
+  };
+  const auto scattered = [&](double r, double phi) -> std::optional<Scattered> {
+    const Vec3 h{roughness.x * r * std::cos(phi), roughness.y * r * std::sin(phi), 1};
+    const double along = dot(wo, h);
+    if (!(along > 0)) return std::nullopt;
+    const Vec3 normal = normalize(h);
+    const double cosine = std::min(dot(wo, normal), 1.0);
+    const std::optional<Vec3> wi = scatter(normal, cosine);
+    if (!wi) return std::nullopt;
+    return Scattered{*wi, cosine, along};
+  };
+  const auto at = [&](double r, double phi) {
+    const auto s = scattered(r, phi);
+    return s ? share(s->cosine) * mask * masking(roughness, s->wi) * s->along / wo.z : 0.0;
   };
   // Towards t = 1 normals lie down and nothing is smooth: s = 1 − t as s = v² spreads it out.
   const auto over_azimuth = [&](double v) {
-    const double t = 1 - v * v;
-    return 2 * v *
-           Quadrature::integrate([&](double phi) { return at(t, phi); }, 0.0, 2 * kPi, 10, 1e-7) /
-           (2 * kPi);
+    const double r = std::sqrt(1 - v * v) / v;
+    const std::vector<double> borders =
+        borders_along_turn([&](double phi) { return scattered(r, phi).has_value(); });
+    double sum = 0;
+    for (std::size_t i = 1; i < borders.size(); ++i) {
+      sum += Quadrature::integrate([&](double phi) { return at(r, phi); }, borders[i - 1],
+                                   borders[i], 10, 1e-6);
+    }
+    return 2 * v * sum / (2 * kPi);
   };
   return Quadrature::integrate(over_azimuth, 0.0, 1.0, 10, 1e-6);
 }

@@ -57,13 +57,13 @@ std::vector<Look> looks_at(const Example& example, std::size_t position) {
 verify::BsdfOptions options_for(const Example& example, const Look& look,
                                 const std::string& subject) {
   verify::BsdfOptions options;
+  options.contract = contract_options(subject);
   options.eta = example.eta;
   options.angles = look.angles;
   options.random_directions = 0;
   options.front = look.front;
   options.back = look.back;
   options.reciprocal = look.front && look.back;  // between all directions, once
-  options.contract.seed = check_seed(subject);
   options.contract.points = nightly() ? 10'000 : 1'000;
   // Curved across the chart of directions.
   if (example.name == "GgxConductor/alpha 1e-4, 1") options.contract.finest_bins = 16384;

@@ -23,7 +23,7 @@ verify::ErasedBsdf as_rendered(const BsdfRef& bsdf) {
 verify::BsdfOptions options_for(const std::string& subject, double eta) {
   verify::BsdfOptions options;
   options.eta = eta;
-  options.contract.seed = check_seed(subject);
+  options.contract = contract_options(subject);
   return options;
 }
 

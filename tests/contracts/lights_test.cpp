@@ -59,8 +59,7 @@ class Lights : public testing::TestWithParam<LightExample> {};
 
 TEST_P(Lights, KeepTheContract) {
   const SamplingPair pair = light_pair<double>(GetParam());
-  verify::ContractOptions options;
-  options.seed = check_seed(pair.name);
+  const verify::ContractOptions options = contract_options(pair.name);
   const auto& chart = GetParam().chart;
   int without_samples = 0;
   for (verify::CheckResult r : chart ? check_pointwise(pair, options) : check_pair(pair, options)) {
@@ -81,8 +80,7 @@ TEST_P(Lights, KeepTheContract) {
 TEST_P(Lights, SampleTheirDensityInFloatAsRendered) {
   SamplingPair pair = light_pair<float>(GetParam());
   pair.name += "/float";
-  verify::ContractOptions options;
-  options.seed = check_seed(pair.name);
+  const verify::ContractOptions options = contract_options(pair.name);
   for (const verify::CheckResult& r : check_pointwise(pair, options)) expect_verdict(r);
   if (GetParam().chart) pair = evened(pair, *GetParam().chart);
   expect_verdict(check_chi_square(pair, options));
@@ -131,8 +129,7 @@ TEST_P(LightSelection, IsADiscretePairForAnyNumberOfLights) {
     const renderer::LightSet lights = light_set(count, GetParam());
     std::string name = "light selection/";
     name.append(renderer::name(GetParam())).append("/").append(std::to_string(count));
-    verify::ContractOptions options;
-    options.seed = check_seed(name);
+    const verify::ContractOptions options = contract_options(name);
     const auto pair = verify::sampling_pair<int>(
         name, verify::Domain::discrete(count),
         [&](float u) {
@@ -211,8 +208,7 @@ TEST(DiscreteDistribution, IsADiscretePairAndLeavesAUniformNumberBehind) {
   EXPECT_EQ(distribution.pmf<float>(1), 0);
   EXPECT_EQ(distribution.pmf<float>(2), 0x1p-24f);
   EXPECT_EQ(distribution.pmf<float>(5), 0);
-  verify::ContractOptions options;
-  options.seed = check_seed("discrete distribution");
+  const verify::ContractOptions options = contract_options("discrete distribution");
   const auto choice = verify::sampling_pair<int>(
       "discrete distribution/choice", verify::Domain::discrete(5),
       [&](float u) { return static_cast<int>(distribution.sample(u).index); },
@@ -298,8 +294,7 @@ double row_of(const verify::Vec3& wi) {
 }
 
 void expect_chi_square_fails(const SamplingPair& pair) {
-  verify::ContractOptions options;
-  options.seed = check_seed(pair.name);
+  const verify::ContractOptions options = contract_options(pair.name);
   verify::CheckResult r = check_chi_square(pair, options);
   r.expected = verify::Verdict::fail;
   expect_verdict(r);

@@ -80,15 +80,13 @@ verify::SamplingPair warp_pair() {
 
 TYPED_TEST(Warps, KeepTheContractInFloat) {
   const verify::SamplingPair pair = warp_pair<TypeParam, float>();
-  verify::ContractOptions options;
-  options.seed = check_seed(pair.name);
+  const verify::ContractOptions options = contract_options(pair.name);
   for (const verify::CheckResult& r : check_pair(pair, options)) expect_verdict(r);
 }
 
 TYPED_TEST(Warps, KeepTheContractInDouble) {
   const verify::SamplingPair pair = warp_pair<TypeParam, double>();
-  verify::ContractOptions options;
-  options.seed = check_seed(pair.name + "/double");
+  const verify::ContractOptions options = contract_options(pair.name + "/double");
   for (const verify::CheckResult& r : check_pair(pair, options)) expect_verdict(r);
 }
 

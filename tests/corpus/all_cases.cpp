@@ -1,5 +1,6 @@
 #include "all_cases.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -12,6 +13,16 @@ void append(std::vector<Case>& cases, std::vector<Case> more) {
 }
 
 }  // namespace
+
+verify::ContractOptions with_effort(verify::ContractOptions options, Effort effort, bool is_twin) {
+  if (effort == Effort::user) return options;
+  options.finest_bins /= is_twin ? 4 : 16;
+  options.first_look /= 4;
+  options.deviation *= is_twin ? 2 : 4;
+  options.mass_tolerance = std::max(2e-3, options.mass_tolerance.value_or(0));
+  if (is_twin) options.evaluations /= 4;
+  return options;
+}
 
 std::vector<Case> all_cases(Half half) {
   std::vector<Case> cases, chosen;

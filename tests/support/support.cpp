@@ -95,6 +95,17 @@ std::uint64_t run_seed() {
 
 std::uint64_t check_seed(std::string_view subject) { return mix(run_seed() ^ mix(hash(subject))); }
 
+verify::ContractOptions contract_options(std::string_view subject) {
+  verify::ContractOptions options;
+  options.seed = check_seed(subject);
+  if (nightly()) return options;
+  options.finest_bins /= 4;
+  options.first_look /= 4;
+  options.deviation *= 2;
+  options.mass_tolerance = 4e-4;
+  return options;
+}
+
 bool nightly() {
   const char* text = std::getenv("PLUMBLINE_NIGHTLY");
   return text != nullptr && std::string_view(text) == "1";

@@ -194,7 +194,7 @@ SamplingPair lobe(double k, const Vec3& axis) {
 MassIntegral bins_of(const SamplingPair& pair, const char* name) {
   ContractOptions options;
   options.seed = tests::check_seed(name);
-  return BinnedPair(pair, options).expected();
+  return BinnedPair(pair, options, mass_error(options)).expected();
 }
 
 TEST(BinIntegrals, AddUpToOneForASupportWithCurvedEdges) {
@@ -237,6 +237,10 @@ SamplingPair rejecting(std::function<bool(double, double)> rejects) {
   return pair;
 }
 
+RejectedShare rejected_of(const SamplingPair& pair, const ContractOptions& options) {
+  return measure_rejected(pair, options, mass_error(options));
+}
+
 /// What GGX rejects at 89.9°: a band at the end of the second number, and a tongue at one azimuth
 /// that is thinner than the steps along a line.
 TEST(RejectedShare, KeepsItsErrorForATongueThinnerThanTheStepsOfTheLines) {
@@ -248,7 +252,7 @@ TEST(RejectedShare, KeepsItsErrorForATongueThinnerThanTheStepsOfTheLines) {
   });
   // The tongue is a triangle; its last 1e-4 lies in the band.
   const double tongue = width * (1 - base) / 2 - width * 1e-4 * (1 - 1e-4 / (1 - base) / 2);
-  const RejectedShare share = measure_rejected(pair, seeded("tongue"));
+  const RejectedShare share = rejected_of(pair, seeded("tongue"));
   EXPECT_LE(std::abs(share.value - (1e-4 + tongue)), share.error(kLevel));
   EXPECT_LE(share.error(1e-3), 5e-4);
 }
@@ -256,7 +260,7 @@ TEST(RejectedShare, KeepsItsErrorForATongueThinnerThanTheStepsOfTheLines) {
 TEST(RejectedShare, IsKnownForBandsCornersAndNothing) {
   const auto expect = [](const char* name, double truth, double known_to,
                          std::function<bool(double, double)> rejects) {
-    const RejectedShare share = measure_rejected(rejecting(std::move(rejects)), seeded(name));
+    const RejectedShare share = rejected_of(rejecting(std::move(rejects)), seeded(name));
     EXPECT_LE(std::abs(share.value - truth), share.error(kLevel) + 1e-12) << name;
     EXPECT_LE(share.error(1e-3), known_to) << name;
   };
@@ -274,7 +278,7 @@ TEST(RejectedShare, OfThreeNumbersAndOfAGeneratorReachesThePromise) {
     if (u[2] < 0.4 && u[0] + u[1] > 1.5) return std::nullopt;
     return SampleRecord{{0, 0, 1}};
   };
-  const RejectedShare share = measure_rejected(three, seeded("three numbers"));
+  const RejectedShare share = rejected_of(three, seeded("three numbers"));
   EXPECT_LE(std::abs(share.value - 0.4 * 0.125), share.error(kLevel));
   EXPECT_LE(share.error(1e-3), 5e-4);
   SamplingPair generator;
@@ -282,7 +286,7 @@ TEST(RejectedShare, OfThreeNumbersAndOfAGeneratorReachesThePromise) {
     if (random.uniform() < 0.125) return std::nullopt;
     return SampleRecord{{0, 0, 1}};
   };
-  const RejectedShare drawn = measure_rejected(generator, seeded("generator"));
+  const RejectedShare drawn = rejected_of(generator, seeded("generator"));
   EXPECT_LE(std::abs(drawn.value - 0.125), drawn.error(kLevel));
   EXPECT_LE(drawn.error(1e-3), 1e-3);
 }

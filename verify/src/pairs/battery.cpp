@@ -83,8 +83,9 @@ PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options)
   results.push_back(jacobian.result);
 
   Stopwatch watch;
-  BinnedPair binned(pair, options);
-  const RejectedShare rejected = measure_rejected(pair, options);
+  const double error = mass_error(options);
+  BinnedPair binned(pair, options, error);
+  const RejectedShare rejected = measure_rejected(pair, options, error);
   const double integration = watch.lap();
   CheckResult chi_square = run_chi_square(options, binned, rejected);
   chi_square.seconds = watch.lap();

@@ -14,11 +14,15 @@ namespace {
 constexpr std::size_t kPilotsPerBin = 16, kLeastPilots = 1 << 14;
 constexpr std::size_t kMostDrawn = 1 << 20;
 // Half of the strict promise of the integral check, see kStrictPromise.
-constexpr double kMassError = 2.5e-5;
-// Of the deviation that a chi-square pass excludes: as much as the former at its default.
-constexpr double kMassErrorPerDeviation = 2e-3;
+constexpr double kStrictMassError = 2.5e-5;
+// Of a tolerance that is stated: a rejected share that has to be counted needs the most of it.
+constexpr double kMassErrorPerTolerance = 0.25;
+// Of the deviation δ that a chi-square pass excludes, root mean square over 64 bins. Their masses
+// have a standard deviation of 0.008 δ/3.3 together, 0.0003 δ each, a fiftieth of δ of a bin's 1/64.
+// In 4,096 bins and 10⁶ samples it is half a count, where chance is 16.
+constexpr double kMassErrorPerDeviation = 0.008;
 // What is good enough where that is out of reach, at most a quarter of the promise that is made
-// then: a rejected share that has to be counted needs the most of it.
+// then.
 constexpr double kLooseMassErrors = 5, kLooseMassError = 2.5e-4;
 // A bin as narrow as that around a sixteenth of its depth's share of the samples is a line.
 constexpr double kLine = 1e-11;
@@ -82,7 +86,7 @@ MassIntegral integrate_over(const BinTree& tree, const SamplingPair& pair,
   question.bins = tree.bins();
   question.dimension = pair.domain.dimension();
   question.target = error;
-  question.good_enough = std::min(kLooseMassErrors * mass_error(options), kLooseMassError);
+  question.good_enough = std::max(error, std::min(kLooseMassErrors * error, kLooseMassError));
   question.max_evaluations = options.evaluations;
   question.own = own;
   question.seed = options.seed;
@@ -91,11 +95,19 @@ MassIntegral integrate_over(const BinTree& tree, const SamplingPair& pair,
 
 }  // namespace
 
-double mass_error(const ContractOptions& options) {
+double resolved_mass_error(const ContractOptions& options) {
   return kMassErrorPerDeviation * options.deviation;
 }
 
-BinnedPair::BinnedPair(const SamplingPair& pair, const ContractOptions& options)
+double promised_mass_error(const ContractOptions& options) {
+  return std::max(kStrictMassError, kMassErrorPerTolerance * options.mass_tolerance.value_or(0));
+}
+
+double mass_error(const ContractOptions& options) {
+  return std::min(resolved_mass_error(options), promised_mass_error(options));
+}
+
+BinnedPair::BinnedPair(const SamplingPair& pair, const ContractOptions& options, double mass_error)
     : pair_(pair),
       random_(random_for(options.seed, Stream::samples)),
       depth_(log2_of(pair.domain.size() > 0 ? pair.domain.size()
@@ -103,7 +115,7 @@ BinnedPair::BinnedPair(const SamplingPair& pair, const ContractOptions& options)
   if (pair.domain.size() > 0) {
     tabulate_discrete();
   } else {
-    integrate_density(options);
+    integrate_density(options, mass_error);
     measure_rounding(options.seed);
   }
   counts_.bins.assign(std::size_t{1} << depth_, 0);
@@ -124,13 +136,13 @@ void BinnedPair::tabulate_discrete() {
   expected_.evaluations = pair_.domain.size();
 }
 
-void BinnedPair::integrate_density(const ContractOptions& options) {
+void BinnedPair::integrate_density(const ContractOptions& options, double mass_error) {
   Random random = random_for(options.seed, Stream::pilot);
   const std::size_t own = draws_for(pair_, std::max(kPilotsPerBin << depth_, kLeastPilots), random);
   std::vector<Point2> pilot = draw_own(pair_, own, random);
   tree_.emplace(pilot, depth_, pair_.domain.dimension());
   measure_lines(pilot);
-  expected_ = integrate_over(*tree_, pair_, {}, own, options, kMassError);
+  expected_ = integrate_over(*tree_, pair_, {}, own, options, mass_error);
 }
 
 void BinnedPair::measure_lines(const std::vector<Point2>& pilot) {

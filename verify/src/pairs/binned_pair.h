@@ -21,8 +21,14 @@ MassIntegral integrate_over_domain(const SamplingPair& pair,
                                    const std::function<double(const Vec3&)>& function,
                                    const ContractOptions& options, double error);
 
-/// Error at 99.9 % to which masses have to be measured: what the chi-square test resolves, whatever
+/// Error at 99.9 % to which masses have to be known for the chi-square test, whatever
 /// `mass_tolerance` allows.
+double resolved_mass_error(const ContractOptions& options);
+
+/// Error at 99.9 % to which masses have to be known for the promise of the integral check.
+double promised_mass_error(const ContractOptions& options);
+
+/// The same for both checks.
 double mass_error(const ContractOptions& options);
 
 struct AtomCount {
@@ -44,9 +50,10 @@ struct BinCounts {
 class BinnedPair {
  public:
   /// Draws pilot samples, cuts the domain where they fall, and integrates the density over each
-  /// bin: as closely as the tests can tell, whatever a pass allows. The bins of a discrete set are
-  /// its points.
-  BinnedPair(const SamplingPair& pair, const ContractOptions& options);
+  /// bin. The bins of a discrete set are its points.
+  ///
+  /// @param mass_error  of the integral at 99.9 %, after which nothing more is spent
+  BinnedPair(const SamplingPair& pair, const ContractOptions& options, double mass_error);
 
   /// Draws more samples and counts them.
   void draw(std::uint64_t count);
@@ -76,7 +83,7 @@ class BinnedPair {
   double on_lines() const { return on_lines_; }
 
  private:
-  void integrate_density(const ContractOptions& options);
+  void integrate_density(const ContractOptions& options, double mass_error);
   void tabulate_discrete();
   void measure_rounding(std::uint64_t seed);
   void measure_lines(const std::vector<Point2>& pilot);

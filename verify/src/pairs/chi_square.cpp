@@ -263,8 +263,9 @@ CheckResult check_chi_square(const SamplingPair& pair, const ContractOptions& op
                                 "': needs at least 2 bins and a positive deviation to exclude");
   }
   const Stopwatch watch;
-  BinnedPair binned(pair, options);
-  CheckResult result = run_chi_square(options, binned, measure_rejected(pair, options));
+  const double error = resolved_mass_error(options);
+  BinnedPair binned(pair, options, error);
+  CheckResult result = run_chi_square(options, binned, measure_rejected(pair, options, error));
   result.seconds = watch.seconds();
   return result;
 }

@@ -91,9 +91,10 @@ CheckResult judge_integral(const ContractOptions& options, const BinnedPair& bin
 
 CheckResult check_integral(const SamplingPair& pair, const ContractOptions& options) {
   const Stopwatch watch;
-  BinnedPair binned(pair, options);
+  const double error = promised_mass_error(options);
+  BinnedPair binned(pair, options, error);
   binned.draw(kProbes);
-  CheckResult result = judge_integral(options, binned, measure_rejected(pair, options));
+  CheckResult result = judge_integral(options, binned, measure_rejected(pair, options, error));
   result.seconds = watch.seconds();
   return result;
 }

@@ -9,7 +9,6 @@
 #include "streams.h"
 
 namespace plumbline::verify {
-
 namespace {
 
 // What a cell's uniform nodes are at least, and as if while cells are made.
@@ -40,7 +39,7 @@ struct TreeCell {
   double key = 0;                   // standard deviation that it is expected to add
   double measured = 0;              // the same, squared, as nodes have shown it
   std::size_t halves = 0;           // index of the lower half, 0: a leaf
-  std::size_t cut = 0;              // dimension
+  std::size_t cut = 0;              // dimension, and where
   double at = 0;
 };
 
@@ -225,16 +224,13 @@ class Integrator {
     add(high, cell.bin, border, cell.last);
   }
 
-  /// The leaf that holds a point of a bin's; none where rounding put it beside all.
-  TreeCell* leaf(std::size_t root, const Point2& p) {
-    TreeCell* cell = &cells_[root];
-    while (cell->halves != 0) cell = &cells_[cell->halves + (p[cell->cut] < cell->at ? 0 : 1)];
-    return cell;
-  }
-
+  /// The leaf that holds a point; none where rounding put it beside all.
   TreeCell* leaf_at(const Point2& p) {
     for (const std::size_t root : roots_of_bin_[bin_at(p)]) {
-      if (contains(cells_[root].box, p)) return leaf(root, p);
+      if (!contains(cells_[root].box, p)) continue;
+      TreeCell* cell = &cells_[root];
+      while (cell->halves != 0) cell = &cells_[cell->halves + (p[cell->cut] < cell->at ? 0 : 1)];
+      return cell;
     }
     return nullptr;
   }
@@ -246,18 +242,17 @@ class Integrator {
     surprises_.clear();
     result_.value.assign(q_.bins, 0.0);
     result_.variance.assign(q_.bins, 0.0);
-    double keys = 0;
+    keys_ = 0;
     for (TreeCell& cell : cells_) {
       cell.measured = 0;
       if (cell.halves != 0) continue;
-      keys += cell.key;
+      keys_ += cell.key;
       ++result_.cells;
     }
-    const double cells = static_cast<double>(result_.cells);
+    const auto cells = static_cast<double>(result_.cells);
     nodes_to_share_ = std::max(static_cast<double>(nodes_) / 2, cells);
     nodes_everywhere_ =
         std::max(kNodesPerCell, std::floor(static_cast<double>(nodes_) / 2 / cells));
-    keys_ = keys;
     for (TreeCell& cell : cells_) {
       if (cell.halves == 0) add_fit_and_nodes(cell);
     }
@@ -266,6 +261,11 @@ class Integrator {
     for (std::size_t b = 0; b < q_.bins; ++b) {
       result_.total += result_.value[b];
       result_.variance_of_total += result_.variance[b];
+    }
+    // Of a single bin the few nodes in its cells may miss a jump, of all bins together they do not.
+    for (const TreeCell& cell : cells_) {
+      if (cell.halves != 0) continue;
+      result_.variance[cell.bin] += std::max(0.0, cell.key * cell.key - cell.measured);
     }
     result_.finite = finite_;
     result_.unseen = std::log(1 / kPassLevel) / static_cast<double>(q_.spread);

@@ -24,13 +24,24 @@ constexpr std::uint64_t kMostCounted = 1 << 24;
 struct Precision {
   double lines;    // to be worth their evaluations: as well as the mass of the density
   double counted;  // less than half of the promise that is made where samples alone show it
-  std::uint64_t probes;
 
-  explicit Precision(const ContractOptions& options)
-      : lines(mass_error(options)),
-        counted(0.4 * std::max(1e-3, options.mass_tolerance.value_or(0))),
-        probes(static_cast<std::uint64_t>(
-            std::min<double>(kMostCounted, std::ceil(-std::log(kPassLevel) / lines)))) {}
+  Precision(const ContractOptions& options, double mass_error)
+      : lines(mass_error),
+        counted(std::max(mass_error, 0.4 * options.mass_tolerance.value_or(1e-3))) {}
+
+  /// Of a part that has this probability. Shares of parts are independent: their variances, each
+  /// times the square of the probability, add up to that of the whole.
+  Precision of_part(double probability) const {
+    Precision part = *this;
+    part.lines /= std::sqrt(probability);
+    part.counted /= std::sqrt(probability);
+    return part;
+  }
+
+  std::uint64_t probes() const {
+    return static_cast<std::uint64_t>(
+        std::min<double>(kMostCounted, std::ceil(-std::log(kPassLevel) / lines)));
+  }
 };
 
 /// The rejected part of lines of constant second number. Borders are bisected between random
@@ -128,7 +139,7 @@ template <class Rejects>
 RejectedShare count(const Rejects& rejects, std::uint64_t at_most, const Precision& precision) {
   RejectedShare share;
   double rejected = 0;
-  for (std::uint64_t n = precision.probes;; n = std::min(2 * n, at_most)) {
+  for (std::uint64_t n = precision.probes();; n = std::min(2 * n, at_most)) {
     while (share.points < static_cast<double>(n)) {
       rejected += rejects() ? 1 : 0;
       share.points += 1;
@@ -176,7 +187,7 @@ RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon,
     }
     return !sample(u);
   };
-  const RejectedShare probed = count(rejects, precision.probes, precision);
+  const RejectedShare probed = count(rejects, precision.probes(), precision);
   if (probed.value == 0) return probed;
   RejectedShare best = probed;
   if (numbers < 3) {
@@ -212,18 +223,22 @@ RejectedShare RejectedShare::scaled(double factor) const {
   return {factor * value, factor * factor * variance, factor * largest_term, points / factor};
 }
 
-RejectedShare measure_rejected(const SamplingPair& pair, const ContractOptions& options) {
-  const Precision precision(options);
+RejectedShare measure_rejected(const SamplingPair& pair, const ContractOptions& options,
+                               double mass_error) {
+  const Precision precision(options, mass_error);
   const std::uint64_t seed = options.seed;
   if (!pair.lobes.empty()) {
     // A lobe's own square shows what is narrow in the share of the whole square that it has.
     RejectedShare sum;
+    Random seeds = random_for(seed, Stream::lobe_seeds);
     for (const PairLobe& lobe : pair.lobes) {
       if (!(lobe.probability > 0)) continue;
-      Random random = random_for(seed, Stream::probes);
+      const std::uint64_t lobe_seed = seeds.bits();
+      Random random = random_for(lobe_seed, Stream::probes);
+      const Precision of_lobe = precision.of_part(lobe.probability);
       const RejectedShare share =
-          (lobe.sample ? of_numbers(lobe.sample, 2, pair.epsilon, precision, seed)
-                       : count([&] { return !lobe.draw(random); }, kMostCounted, precision))
+          (lobe.sample ? of_numbers(lobe.sample, 2, pair.epsilon, of_lobe, lobe_seed)
+                       : count([&] { return !lobe.draw(random); }, kMostCounted, of_lobe))
               .scaled(lobe.probability);
       sum.value += share.value;
       sum.variance += share.variance;

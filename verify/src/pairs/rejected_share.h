@@ -23,6 +23,9 @@ struct RejectedShare {
 /// Measures the share until it is known well enough for the promise of the integral check, or a few
 /// million random numbers are spent: along lines, whose borders are bisected, where the sampler
 /// takes one or two numbers; on a jittered grid for three; by counting for a generator.
-RejectedShare measure_rejected(const SamplingPair& pair, const ContractOptions& options);
+///
+/// @param mass_error  what the integral is known to at 99.9 %: lines cost little, and reach it
+RejectedShare measure_rejected(const SamplingPair& pair, const ContractOptions& options,
+                               double mass_error);
 
 }  // namespace plumbline::verify
