@@ -34,11 +34,9 @@ function(plumbline_library name)
 endfunction()
 
 # plumbline_cold(TARGET): for what spends its time in others' code, or none, so that -O3 costs a compiler half of
-# its time and saves nobody any. In a release build, the one where it matters. GCC 12 at -O1 takes sums of strings
-# for writes beyond an array.
+# its time and saves nobody any. In a release build, the one where it matters.
 function(plumbline_cold target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>
-                                           $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-Wno-array-bounds>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # plumbline_precompile_std(TARGET [HEADER …]), plumbline_precompiled_like(TARGET OTHER)
