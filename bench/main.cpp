@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -8,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/options/options.h>
 #include <plumbline/reports/results.h>
+
 #include "allocation.h"
 #include "equal_error.h"
 #include "ray_replay.h"
@@ -53,22 +54,23 @@ std::vector<Part> make_parts(const std::filesystem::path& results) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  CLI::App app{"Benchmarks of Plumbline, part by part"};
-  std::filesystem::path results;
-  std::string only, scaling_point;
+  plumbline::options::CommandLine line("Benchmarks of Plumbline, part by part");
+  plumbline::options::Command program = line.program();
+  std::string folder, only, scaling_point;
   bool full = false;
-  auto* folder = app.add_option("--results", results, "Folder for the JSON results");
-  app.add_flag("--full", full, "Everything, instead of the one-minute set");
-  app.add_option("--only", only, "One part: its name");
+  program.add("--results", folder, "Folder for the JSON results");
+  program.add_flag("--full", full, "Everything, instead of the one-minute set");
+  program.add("--only", only, "One part: its name");
   // How this program measures in a process of its own, see scaling_point.cpp.
-  app.add_option("--scaling-point", scaling_point)->excludes(folder)->group("");
-  CLI11_PARSE(app, argc, argv);
+  program.add("--scaling-point", scaling_point, "").excludes("--results").hidden();
+  if (const auto printed = line.parse(argc, argv)) return *printed ? 0 : 2;
   if (!scaling_point.empty()) {
     plumbline::bench::measure_scaling_point(scaling_point);
     return 0;
   }
-  if (results.empty()) throw std::invalid_argument("--results FOLDER is required");
+  if (folder.empty()) throw std::invalid_argument("--results FOLDER is required");
 
+  const std::filesystem::path results = folder;
   std::filesystem::create_directories(results);
   bool found = false;
   for (const Part& part : make_parts(results)) {

@@ -33,8 +33,21 @@ function(plumbline_library name)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC_LIBRARIES} PRIVATE ${arg_PRIVATE_LIBRARIES})
 endfunction()
 
-# Parses what nearly every source of a target includes once for all of them; the sources include it
-# all the same.
+# plumbline_cold(TARGET): for what spends its time in others' code, or none, so that -O3 costs a compiler half of
+# its time and saves nobody any. In a release build, the one where it matters.
+function(plumbline_cold target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# plumbline_precompile_std(TARGET [HEADER …]), plumbline_precompiled_like(TARGET OTHER)
+#
+# Parses what nearly every source of a target includes once for all of them; the sources include it all the same.
+# Of targets that are compiled alike the first does, and the others take its file: with the same -O, or GCC 12
+# crashes, and with the definitions that the first has. Who uses a library sees nothing of it.
+function(plumbline_precompiled_like target other)
+  target_precompile_headers(${target} REUSE_FROM ${other})
+endfunction()
+
 function(plumbline_precompile_std target)
   target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory>
                             <optional> <string> <utility> <variant> <vector> ${ARGN})

@@ -7,7 +7,6 @@
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
 
-#include "numbers.h"
 #include "render_values.h"
 
 namespace plumbline::tools {
@@ -18,10 +17,10 @@ constexpr std::uint32_t kSamples = 1000;  // 50 in each of 20 iterations
 
 }  // namespace
 
-void add_allocation_options(CLI::App& command, AllocationArguments& arguments) {
-  CLI::Option* allocation =
+void add_allocation_options(options::Command& command, AllocationArguments& arguments) {
+  options::Option allocation =
       command
-          .add_option_function<std::string>(
+          .add_text(
               "--allocation",
               [&](const std::string& text) {
                 arguments.policy =
@@ -29,21 +28,21 @@ void add_allocation_options(CLI::App& command, AllocationArguments& arguments) {
               },
               fmt::format("Direct light by BSDF and light samples, shared out pixel by pixel: {}",
                           fmt::join(names_of(renderer::kAllocations), ", ")))
-          ->type_name("NAME");
+          .type("NAME");
   for (const char* other : {"--strategy", "--heuristic", "--counts", "--light-probability",
                             "--sampler", "--seconds", "--error"}) {
-    allocation->excludes(command.get_option(other));
+    allocation.excludes(other);
   }
   const auto add = [&](const char* option, auto& value, const char* meaning, const char* type) {
-    return command.add_option(option, value, meaning)->type_name(type)->needs(allocation);
+    return command.add(option, value, meaning).type(type).needs("--allocation");
   };
   add("--iterations", arguments.options.iterations, "Of the allocation; 20 without it", "N")
-      ->check(whole_number(1, kMaxIterations));
+      .whole_number(1, kMaxIterations);
   add("--share-limit", arguments.options.limit, "Least share of a technique; 0.1 without it", "A")
-      ->check(positive_number());
+      .positive_number();
   add("--cost-ratio", arguments.options.cost_ratio,
       "For cost-aware: time of a BSDF sample over that of a light sample", "C")
-      ->check(positive_number());
+      .positive_number();
   add("--share-map", arguments.share_map,
       "Write the share of BSDF samples of each pixel to this OpenEXR file", "FILE");
 }

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include <plumbline/options/options.h>
 #include <plumbline/renderer/assembly/render.h>
 
 #include "output_file.h"
@@ -20,7 +21,7 @@ struct AllocationArguments {
 
 /// Adds --allocation, which rules out the options that it takes the place of, and the options that
 /// need it.
-void add_allocation_options(CLI::App& command, AllocationArguments& arguments);
+void add_allocation_options(options::Command& command, AllocationArguments& arguments);
 
 /// Makes the options those of the allocation, if there is one: with the balance heuristic.
 ///

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -97,18 +96,18 @@ int run_calibrate(const Arguments& arguments) {
 
 }  // namespace
 
-void add_calibrate_command(CLI::App& app, Run& run) {
+void add_calibrate_command(options::CommandLine& line) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("calibrate", "Measure what the checks claim: levels, power, coverage");
-  command->add_flag("--full", arguments->full, "As many runs as at night: an hour");
-  command->add_option("--seed", arguments->seed, "Seed of all runs")->type_name("N");
-  command->add_option("--only", arguments->only, "Only rows whose \"table/name\" contains this")
-      ->type_name("TEXT");
-  command->add_option("--results", arguments->results, "Directory to add the rows to, for report")
-      ->type_name("DIR");
-  command->footer("Examples:\n  plumbline calibrate\n  plumbline calibrate --full --only coverage");
-  command->callback([arguments, &run] { run = [arguments] { return run_calibrate(*arguments); }; });
+  options::Command command =
+      line.add_command("calibrate", "Measure what the checks claim: levels, power, coverage");
+  command.add_flag("--full", arguments->full, "As many runs as at night: an hour");
+  command.add("--seed", arguments->seed, "Seed of all runs").type("N");
+  command.add("--only", arguments->only, "Only rows whose \"table/name\" contains this")
+      .type("TEXT");
+  command.add("--results", arguments->results, "Directory to add the rows to, for report")
+      .type("DIR");
+  command.footer("Examples:\n  plumbline calibrate\n  plumbline calibrate --full --only coverage");
+  command.runs([arguments] { return run_calibrate(*arguments); });
 }
 
 }  // namespace plumbline::tools

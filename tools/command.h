@@ -1,13 +1,9 @@
 #pragma once
 
-#include <functional>
+#include <plumbline/options/options.h>
 
-namespace CLI {
-class App;
-}
-
-/// The subcommands of `plumbline`. Each function declares one; when the command line names it, it
-/// sets `run` to what is to be done, whose result is the exit code.
+/// The subcommands of `plumbline`. Each function declares one, and what is to be done when the
+/// command line names it.
 namespace plumbline::tools {
 
 inline constexpr int kExitFine = 0;
@@ -15,12 +11,10 @@ inline constexpr int kExitUnexpectedVerdict = 1;  ///< a check did not give its 
 inline constexpr int kExitBadInput = 2;           ///< the user's mistake: usage, files, values
 inline constexpr int kExitMachineFailed = 3;      ///< disk full, out of memory
 
-using Run = std::function<int()>;
-
-void add_list_command(CLI::App& app, Run& run);
-void add_render_command(CLI::App& app, Run& run);
-void add_calibrate_command(CLI::App& app, Run& run);
-void add_compare_command(CLI::App& app, Run& run);
-void add_report_command(CLI::App& app, Run& run);
+void add_list_command(options::CommandLine& line);
+void add_render_command(options::CommandLine& line);
+void add_calibrate_command(options::CommandLine& line);
+void add_compare_command(options::CommandLine& line);
+void add_report_command(options::CommandLine& line);
 
 }  // namespace plumbline::tools

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,7 +17,6 @@
 #include <plumbline/verify/image.h>
 
 #include "command.h"
-#include "numbers.h"
 #include "scene_argument.h"
 
 namespace plumbline::tools {
@@ -196,33 +194,33 @@ int run_compare(const CompareArguments& arguments) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, Run& run) {
+void add_compare_command(options::CommandLine& line) {
   const auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command = app.add_subcommand(
-      "compare", "Hold an image against a closed form, or against another image");
-  command->add_option("images", arguments->images, "One image with --scene, or two images")
-      ->required()
-      ->expected(1, 2)
-      ->type_name("");
-  command->add_option("--scene", arguments->scene, "Known scene whose closed form is the reference")
-      ->type_name("NAME");
+  options::Command command =
+      line.add_command("compare", "Hold an image against a closed form, or against another image");
+  command.add("images", arguments->images, "One image with --scene, or two images")
+      .required()
+      .count(1, 2)
+      .type("");
+  command.add("--scene", arguments->scene, "Known scene whose closed form is the reference")
+      .type("NAME");
   command
-      ->add_option("--tolerance", arguments->tolerance,
-                   "Largest relative bias that passes; 0.01 without it")
-      ->check(positive_number())
-      ->type_name("E");
-  command->add_flag("--exact", arguments->exact, "Two images must be equal bit for bit");
+      .add("--tolerance", arguments->tolerance,
+           "Largest relative bias that passes; 0.01 without it")
+      .positive_number()
+      .type("E");
+  command.add_flag("--exact", arguments->exact, "Two images must be equal bit for bit");
   command
-      ->add_option("--max-depth", arguments->max_depth,
-                   "Depth that the image was rendered with, if not the scene's")
-      ->check(whole_number(-1, std::numeric_limits<int>::max()))
-      ->type_name("N");
+      .add("--max-depth", arguments->max_depth,
+           "Depth that the image was rendered with, if not the scene's")
+      .whole_number(-1, std::numeric_limits<int>::max())
+      .type("N");
   command
-      ->add_option("-D", arguments->definitions,
-                   "Value that the image was rendered with, if not the scene's; repeatable")
-      ->allow_extra_args(false)
-      ->type_name("NAME=VALUE");
-  command->footer(
+      .add("-D", arguments->definitions,
+           "Value that the image was rendered with, if not the scene's; repeatable")
+      .one_value_each()
+      .type("NAME=VALUE");
+  command.footer(
       R"(Images of plumbline carry their parameters and depth in the header; others need -D and --max-depth
 where they differ from the scene file.
 
@@ -230,7 +228,7 @@ Examples:
   plumbline compare image.exr --scene furnace_sphere --tolerance 0.005
   plumbline compare mis.exr light.exr
   plumbline compare before.exr after.exr --exact)");
-  command->callback([arguments, &run] { run = [arguments] { return run_compare(*arguments); }; });
+  command.runs([arguments] { return run_compare(*arguments); });
 }
 
 }  // namespace plumbline::tools

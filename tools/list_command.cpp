@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -169,19 +168,19 @@ int run_list(const ListArguments& arguments) {
 
 }  // namespace
 
-void add_list_command(CLI::App& app, Run& run) {
+void add_list_command(options::CommandLine& line) {
   const auto arguments = std::make_shared<ListArguments>();
-  CLI::App* command = app.add_subcommand("list", "List what can be rendered, and how");
+  options::Command command = line.add_command("list", "List what can be rendered, and how");
   std::vector<std::string> names;
   for (const Topic& topic : topics()) names.push_back(topic.name);
   command
-      ->add_option("topic", arguments->topic,
-                   fmt::format("One of {}; everything without it", fmt::join(names, ", ")))
-      ->check(CLI::IsMember(names).description(""))
-      ->type_name("");
-  command->add_flag("--names", arguments->names_only, "Names only, one on a line");
-  command->footer("Example:\n  plumbline list scenes --names");
-  command->callback([arguments, &run] { run = [arguments] { return run_list(*arguments); }; });
+      .add("topic", arguments->topic,
+           fmt::format("One of {}; everything without it", fmt::join(names, ", ")))
+      .one_of(names)
+      .type("");
+  command.add_flag("--names", arguments->names_only, "Names only, one on a line");
+  command.footer("Example:\n  plumbline list scenes --names");
+  command.runs([arguments] { return run_list(*arguments); });
 }
 
 }  // namespace plumbline::tools

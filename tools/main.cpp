@@ -1,12 +1,12 @@
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -32,11 +32,10 @@ Exit codes: 0 fine, 1 a check did not give its expected verdict, 2 bad input or 
 constexpr const char* kOutputLost = "cannot write to the standard output; is it full?";
 
 /// CLI11 says of an unknown command or option in its place only that a command is required.
-void check_command_name(const CLI::App& app, const std::string& first) {
-  std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+void check_command_name(const options::CommandLine& line, const std::string& first) {
+  const std::vector<std::string> known = line.commands();
   if (std::find(known.begin(), known.end(), first) != known.end()) return;
-  if (app.get_option_no_throw(first) != nullptr) return;
+  if (line.has_option(first)) return;
   throw renderer::InputError(
       fmt::format("there is no command \"{}\"; {}", first, renderer::name_hint(first, known)));
 }
@@ -47,7 +46,7 @@ int fail(int exit_code, const char* message) {
 }
 
 /// Runs the command and turns what it throws into an exit code.
-int run_command(const Run& run) {
+int run_command(const options::Run& run) {
   try {
     const int exit_code = run();
     // What was printed must have arrived: a full disk may lie behind the standard output.
@@ -67,26 +66,25 @@ int run_command(const Run& run) {
 int main_of(int argc, char** argv) {
   // A file that would outgrow its limit is an error of write(), not a death without a word.
   std::signal(SIGXFSZ, SIG_IGN);
-  CLI::App app("Checks Monte Carlo sampling code, around a compact MIS renderer", "plumbline");
-  app.set_version_flag("--version", PLUMBLINE_VERSION);
-  app.require_subcommand(1);
-  app.footer(kExamples);
-  Run run;
-  add_list_command(app, run);
-  add_render_command(app, run);
-  add_compare_command(app, run);
-  add_calibrate_command(app, run);
-  add_report_command(app, run);
+  options::CommandLine line("Checks Monte Carlo sampling code, around a compact MIS renderer",
+                            "plumbline");
+  line.add_version(PLUMBLINE_VERSION);
+  line.program().footer(kExamples);
+  add_list_command(line);
+  add_render_command(line);
+  add_compare_command(line);
+  add_calibrate_command(line);
+  add_report_command(line);
   try {
-    if (argc > 1) check_command_name(app, argv[1]);
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (app.exit(error) != 0) return kExitBadInput;
-    return std::cout.flush() ? kExitFine : fail(kExitMachineFailed, kOutputLost);
+    if (argc > 1) check_command_name(line, argv[1]);
+    if (const std::optional<bool> printed = line.parse(argc, argv)) {
+      if (!*printed) return kExitBadInput;
+      return std::cout.flush() ? kExitFine : fail(kExitMachineFailed, kOutputLost);
+    }
   } catch (const renderer::InputError& error) {
     return fail(kExitBadInput, error.what());
   }
-  return run_command(run);
+  return run_command(line.chosen());
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -20,7 +19,6 @@
 
 #include "allocation_options.h"
 #include "command.h"
-#include "numbers.h"
 #include "output_file.h"
 #include "progress.h"
 #include "render_values.h"
@@ -227,15 +225,11 @@ int run_render(const RenderArguments& arguments) {
   return kExitFine;
 }
 
-void add_options(CLI::App& command, RenderArguments& arguments) {
-  command.add_option("scene", arguments.scene, "Scene file, or name of a known scene")
-      ->required()
-      ->type_name("");
-  command.add_option("-o,--output", arguments.output, "OpenEXR file to write")
-      ->required()
-      ->type_name("FILE");
+void add_options(options::Command& command, RenderArguments& arguments) {
+  command.add("scene", arguments.scene, "Scene file, or name of a known scene").required().type("");
+  command.add("-o,--output", arguments.output, "OpenEXR file to write").required().type("FILE");
   command
-      .add_option_function<std::string>(
+      .add_text(
           "--strategy",
           [&](const std::string& text) {
             arguments.options.path.strategy =
@@ -243,30 +237,30 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
           },
           fmt::format("One of {}; mis without it",
                       fmt::join(names_of(renderer::kStrategies), ", ")))
-      ->type_name("NAME");
+      .type("NAME");
   command
-      .add_option_function<std::string>(
+      .add_text(
           "--heuristic",
           [&](const std::string& text) {
             arguments.options.path.heuristic = parse_heuristic(text);
           },
           fmt::format("One of {}; power=2 without it. power=b and cutoff=a take a parameter",
                       fmt::join(names_of(renderer::kHeuristics), ", ")))
-      ->type_name("NAME");
+      .type("NAME");
   command
-      .add_option("--counts", arguments.counts,
-                  "Samples of each technique at the first vertex, for mis; 1,1 without it")
-      ->type_name("BSDF,LIGHT");
+      .add("--counts", arguments.counts,
+           "Samples of each technique at the first vertex, for mis; 1,1 without it")
+      .type("BSDF,LIGHT");
   command
-      .add_option("--light-probability", arguments.light_probability,
-                  "Chance of the light, for one-sample; 0.5 without it")
-      ->type_name("C");
+      .add("--light-probability", arguments.light_probability,
+           "Chance of the light, for one-sample; 0.5 without it")
+      .type("C");
   command
-      .add_option("--roulette", arguments.roulette,
-                  "Russian roulette from this depth on, or off; the scene's without it")
-      ->type_name("N");
+      .add("--roulette", arguments.roulette,
+           "Russian roulette from this depth on, or off; the scene's without it")
+      .type("N");
   command
-      .add_option_function<std::string>(
+      .add_text(
           "--sampler",
           [&](const std::string& text) {
             arguments.options.sampler =
@@ -274,9 +268,9 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
           },
           fmt::format("One of {}; independent without it",
                       fmt::join(names_of(renderer::kSamplers), ", ")))
-      ->type_name("NAME");
+      .type("NAME");
   command
-      .add_option_function<std::string>(
+      .add_text(
           "--backend",
           [&](const std::string& text) {
             arguments.options.backend =
@@ -285,9 +279,9 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
           fmt::format("One of {}: many paths side by side, or one after the other; the same image. "
                       "batched without it",
                       fmt::join(names_of(renderer::kBackends), ", ")))
-      ->type_name("NAME");
+      .type("NAME");
   command
-      .add_option_function<std::string>(
+      .add_text(
           "--light-selection",
           [&](const std::string& text) {
             arguments.light_selection =
@@ -295,60 +289,54 @@ void add_options(CLI::App& command, RenderArguments& arguments) {
           },
           fmt::format("How one of the lights is chosen, one of {}; uniform without it",
                       fmt::join(names_of(renderer::kLightSelections), ", ")))
-      ->type_name("NAME");
+      .type("NAME");
   command
-      .add_option("--replicates", arguments.replicates,
-                  "Of sobol: scrambles that --spp is dealt out to, which show the noise; 4 without "
-                  "it, 1 for the least noise and no estimate of it")
-      ->check(whole_number(1, 1024))
-      ->type_name("N");
-  command.add_option("--spp", arguments.samples, "Samples per pixel; the scene's without it")
-      ->check(whole_number(1, kMaxSamples))
-      ->type_name("N");
-  command.add_option("--seconds", arguments.options.seconds, "Stop after this time")
-      ->check(positive_number())
-      ->type_name("S");
+      .add("--replicates", arguments.replicates,
+           "Of sobol: scrambles that --spp is dealt out to, which show the noise; 4 without "
+           "it, 1 for the least noise and no estimate of it")
+      .whole_number(1, 1024)
+      .type("N");
+  command.add("--spp", arguments.samples, "Samples per pixel; the scene's without it")
+      .whole_number(1, kMaxSamples)
+      .type("N");
+  command.add("--seconds", arguments.options.seconds, "Stop after this time")
+      .positive_number()
+      .type("S");
+  command.add("--error", arguments.options.relative_error, "Stop at this estimated relative error")
+      .positive_number()
+      .type("E");
   command
-      .add_option("--error", arguments.options.relative_error,
-                  "Stop at this estimated relative error")
-      ->check(positive_number())
-      ->type_name("E");
+      .add("--max-depth", arguments.max_depth,
+           "1: emission only, 2: direct light too, -1: all; the scene's without it")
+      .whole_number(-1, std::numeric_limits<int>::max())
+      .type("N");
+  command.add("--seed", arguments.options.seed, "The same seed gives the same bits; 0 without it")
+      .whole_number(0, std::numeric_limits<std::int64_t>::max())
+      .type("N");
   command
-      .add_option("--max-depth", arguments.max_depth,
-                  "1: emission only, 2: direct light too, -1: all; the scene's without it")
-      ->check(whole_number(-1, std::numeric_limits<int>::max()))
-      ->type_name("N");
-  command
-      .add_option("--seed", arguments.options.seed,
-                  "The same seed gives the same bits; 0 without it")
-      ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()))
-      ->type_name("N");
-  command
-      .add_option("--threads", arguments.options.threads,
-                  "All cores without it; no matter to the image")
-      ->check(whole_number(1, 1024))
-      ->type_name("N");
-  command.add_option("--size", arguments.size, "Size of the image in place of the scene's")
-      ->type_name("WxH");
-  command.add_option("--json", arguments.json, "Write rays, time, mean and settings to this file")
-      ->type_name("FILE");
-  command.add_option("-D", arguments.definitions, "Value for a <default> of the scene; repeatable")
-      ->allow_extra_args(false)
-      ->type_name("NAME=VALUE");
+      .add("--threads", arguments.options.threads, "All cores without it; no matter to the image")
+      .whole_number(1, 1024)
+      .type("N");
+  command.add("--size", arguments.size, "Size of the image in place of the scene's").type("WxH");
+  command.add("--json", arguments.json, "Write rays, time, mean and settings to this file")
+      .type("FILE");
+  command.add("-D", arguments.definitions, "Value for a <default> of the scene; repeatable")
+      .one_value_each()
+      .type("NAME=VALUE");
 }
 
 }  // namespace
 
-void add_render_command(CLI::App& app, Run& run) {
+void add_render_command(options::CommandLine& line) {
   const auto arguments = std::make_shared<RenderArguments>();
-  CLI::App* command = app.add_subcommand("render", "Render a scene to an OpenEXR image");
-  add_options(*command, *arguments);
-  add_allocation_options(*command, arguments->allocation);
-  command->footer(R"(Examples:
+  options::Command command = line.add_command("render", "Render a scene to an OpenEXR image");
+  add_options(command, *arguments);
+  add_allocation_options(command, arguments->allocation);
+  command.footer(R"(Examples:
   plumbline render furnace_cube -o cube.exr --strategy one-sample --heuristic balance --spp 1024
   plumbline render sphere_light -o light.exr -D radius=0.1 -D height=2 --error 0.01
   plumbline render scene.xml -o /dev/null --seconds 30 --threads 1 --json timing.json)");
-  command->callback([arguments, &run] { run = [arguments] { return run_render(*arguments); }; });
+  command.runs([arguments] { return run_render(*arguments); });
 }
 
 }  // namespace plumbline::tools

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
@@ -139,32 +138,26 @@ int run_report(const std::filesystem::path& results_dir, const std::filesystem::
 
 }  // namespace
 
-void add_report_command(CLI::App& app, Run& run) {
+void add_report_command(options::CommandLine& line) {
   struct Arguments {
     std::string results, page;
     std::uint64_t max_checks = verify::ErrorBudget{}.max_checks;
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("report", "Make the page of a results directory");
-  command->add_option("results", arguments->results, "Directory with records")
-      ->required()
-      ->type_name("");
-  command->add_option("-o,--output", arguments->page, "HTML file to write")
-      ->required()
-      ->type_name("FILE");
+  options::Command command = line.add_command("report", "Make the page of a results directory");
+  command.add("results", arguments->results, "Directory with records").required().type("");
+  command.add("-o,--output", arguments->page, "HTML file to write").required().type("FILE");
   command
-      ->add_option("--max-checks", arguments->max_checks,
-                   "Refuse a run of more checks: the error budget is split over so many")
-      ->capture_default_str()
-      ->type_name("N");
-  command->footer("Example:\n  plumbline report build/release/results -o index.html");
-  command->callback([arguments, &run] {
-    run = [arguments] {
-      const OutputFile page(arguments->page);
-      const int exit_code = run_report(arguments->results, page.path(), arguments->max_checks);
-      page.finish();
-      return exit_code;
-    };
+      .add("--max-checks", arguments->max_checks,
+           "Refuse a run of more checks: the error budget is split over so many")
+      .shows_default()
+      .type("N");
+  command.footer("Example:\n  plumbline report build/release/results -o index.html");
+  command.runs([arguments] {
+    const OutputFile page(arguments->page);
+    const int exit_code = run_report(arguments->results, page.path(), arguments->max_checks);
+    page.finish();
+    return exit_code;
   });
 }
 

@@ -1,6 +1,5 @@
 #include "json_fields.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace plumbline::reports::detail {
@@ -16,24 +15,12 @@ double double_from_json(const Json& value) {
   if (value == "inf") return std::numeric_limits<double>::infinity();
   if (value == "-inf") return -std::numeric_limits<double>::infinity();
   if (!value.is_number()) throw FormatError("not a number");
-  return value.get<double>();
-}
-
-Json parse_json(std::string_view text) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::exception& error) {
-    const std::string_view what =
-        error.what();  // "[json.exception.parse_error.101] parse error at …"
-    throw FormatError("not JSON, or only a part of it: " +
-                      std::string(what.substr(std::min(what.find("] ") + 2, what.size()))));
-  }
+  return value.as_double();
 }
 
 std::string format_of(const Json& json) {
-  if (!json.is_object()) return {};
-  const auto format = json.find("format");
-  return format != json.end() && format->is_string() ? format->get<std::string>() : std::string();
+  const Json* format = json.find("format");
+  return format != nullptr && format->is_string() ? format->as_string() : std::string();
 }
 
 void require_format(const Json& json, std::string_view format) {

@@ -12,15 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include <plumbline/reports/errors.h>
+
+#include "json.h"
 
 /// Each record names its fields once, in a function `visit_fields(visitor, record)`; the two
 /// visitors below write and read them, so that the two directions cannot drift apart.
 namespace plumbline::reports::detail {
-
-using Json = nlohmann::ordered_json;
 
 /// NaN as null and ±∞ as text: JSON has no number for them.
 Json json_from_double(double value);
@@ -93,7 +91,7 @@ class FieldWriter {
   static Json to_value(const std::vector<std::pair<std::string, double>>& values) {
     Json list = Json::array();
     for (const auto& [key, value] : values) {
-      list.push_back(Json::array({Json(key), json_from_double(value)}));
+      list.push_back(Json::array({key, json_from_double(value)}));
     }
     return list;
   }
@@ -107,8 +105,8 @@ class FieldReader {
 
   template <class T>
   void operator()(const char* name, T& value) {
-    const auto field = json_.find(name);
-    if (field == json_.end()) throw FormatError("field \"" + std::string(name) + "\" is missing");
+    const Json* field = json_.find(name);
+    if (field == nullptr) throw FormatError("field \"" + std::string(name) + "\" is missing");
     try {
       from_value(*field, value);
     } catch (const FormatError& error) {
@@ -122,34 +120,34 @@ class FieldReader {
     value = json.is_null() ? std::nullopt : std::optional(double_from_json(json));
   }
   static void from_value(const Json& json, bool& value) {
-    if (!json.is_boolean()) throw FormatError("not true or false");
-    value = json.get<bool>();
+    if (!json.is_bool()) throw FormatError("not true or false");
+    value = json.as_bool();
   }
   static void from_value(const Json& json, std::uint64_t& value) {
-    if (!json.is_number_unsigned()) throw FormatError("not a whole number >= 0");
-    value = json.get<std::uint64_t>();
+    if (!json.is_unsigned()) throw FormatError("not a whole number >= 0");
+    value = json.as_uint64();
   }
   static void from_value(const Json& json, int& value) {
-    const bool in_range = json.is_number_unsigned()
-                              ? json.get<std::uint64_t>() <= std::numeric_limits<int>::max()
-                              : json.is_number_integer() &&
-                                    json.get<std::int64_t>() >= std::numeric_limits<int>::min();
+    const bool in_range =
+        json.is_unsigned()
+            ? json.as_uint64() <= std::numeric_limits<int>::max()
+            : json.is_integer() && json.as_int64() >= std::numeric_limits<int>::min();
     if (!in_range) throw FormatError("not a whole number of 32 bits");
-    value = json.get<int>();
+    value = static_cast<int>(json.as_int64());
   }
   static void from_value(const Json& json, std::string& value) {
     if (!json.is_string()) throw FormatError("not a text");
-    value = json.get<std::string>();
+    value = json.as_string();
   }
   template <class T>
   static void from_value(const Json& json, std::vector<T>& values) {
     if (!json.is_array()) throw FormatError("not a list");
     values.clear();
-    for (const Json& element : json) from_value(element, values.emplace_back());
+    for (const Json& element : json.elements()) from_value(element, values.emplace_back());
   }
   template <std::size_t n>
   static void from_value(const Json& json, std::array<double, n>& values) {
-    if (!json.is_array() || json.size() != n) {
+    if (!json.is_array() || json.elements().size() != n) {
       throw FormatError("not a list of " + std::to_string(n) + " numbers");
     }
     for (std::size_t i = 0; i < n; ++i) values[i] = double_from_json(json[i]);
@@ -158,10 +156,12 @@ class FieldReader {
   static void from_value(const Json& json, std::map<std::string, T>& values) {
     if (!json.is_object()) throw FormatError("not an object");
     values.clear();
-    for (const auto& [key, element] : json.items()) from_value(element, values[key]);
+    for (const auto& [key, element] : json.members()) from_value(element, values[key]);
   }
   static void from_value(const Json& json, std::pair<std::string, double>& value) {
-    if (!json.is_array() || json.size() != 2) throw FormatError("not a pair of name and number");
+    if (!json.is_array() || json.elements().size() != 2) {
+      throw FormatError("not a pair of name and number");
+    }
     from_value(json[0], value.first);
     value.second = double_from_json(json[1]);
   }
@@ -181,14 +181,14 @@ class FieldReader {
   template <class Enum>
   static Enum enum_from_word(const Json& json) {
     if constexpr (requires(std::string_view text) { EnumWords<Enum>::value(text); }) {
-      const auto value = EnumWords<Enum>::value(json.is_string() ? json.get<std::string>() : "");
+      const auto value = EnumWords<Enum>::value(json.is_string() ? json.as_string() : "");
       if (value) return *value;
     } else {
       for (const auto& [value, word] : EnumWords<Enum>::kWords) {
         if (json == word) return value;
       }
     }
-    throw FormatError("unknown word " + json.dump(-1, ' ', false, Json::error_handler_t::replace));
+    throw FormatError("unknown word " + json.dump());
   }
 
   const Json& json_;
@@ -219,11 +219,8 @@ std::string document(const char* format, const Record& record) {
   json["format"] = format;
   FieldWriter writer(json);
   visit_fields(writer, record);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump();
 }
-
-/// @throws FormatError for a text that is not JSON
-Json parse_json(std::string_view text);
 
 /// The "format" of a document; empty where it states none.
 std::string format_of(const Json& json);
@@ -233,7 +230,7 @@ void require_format(const Json& json, std::string_view format);
 
 template <class Record>
 Record parse_document(const char* format, std::string_view text) {
-  const Json json = parse_json(text);
+  const Json json = Json::parse(text);
   require_format(json, format);
   return record_from_json<Record>(json);
 }

@@ -15,12 +15,12 @@ namespace {
 constexpr double kNormal95 = 1.959963984540054;
 
 Json summary_to_json(const Summary& summary) {
-  return {{"passed", summary.passed},
-          {"failed_as_expected", summary.failed_as_expected},
-          {"inconclusive_as_expected", summary.inconclusive_as_expected},
-          {"unexpected", summary.unexpected},
-          {"unreadable", summary.unreadable},
-          {"good", summary.good()}};
+  return Json::object({{"passed", summary.passed},
+                       {"failed_as_expected", summary.failed_as_expected},
+                       {"inconclusive_as_expected", summary.inconclusive_as_expected},
+                       {"unexpected", summary.unexpected},
+                       {"unreadable", summary.unreadable},
+                       {"good", summary.good()}});
 }
 
 /// A seed as text: JavaScript's numbers would round it.
@@ -44,9 +44,9 @@ Json checks_to_json(const std::vector<verify::CheckResult>& checks) {
 Json warnings_to_json(const std::vector<ReadWarning>& warnings) {
   Json list = Json::array();
   for (const ReadWarning& warning : warnings) {
-    list.push_back({{"file", warning.file.filename().string()},
-                    {"line", warning.line},
-                    {"what", warning.what}});
+    list.push_back(Json::object({{"file", warning.file.filename().string()},
+                                 {"line", warning.line},
+                                 {"what", warning.what}}));
   }
   return list;
 }
@@ -58,11 +58,11 @@ Json image_to_json(const PageImage& image) {
     throw std::invalid_argument("image \"" + image.group + "/" + image.name +
                                 "\": size and data disagree");
   }
-  return {{"group", image.group},
-          {"name", image.name},
-          {"width", image.width},
-          {"height", image.height},
-          {"data", base64_of_floats(image.rgb)}};
+  return Json::object({{"group", image.group},
+                       {"name", image.name},
+                       {"width", image.width},
+                       {"height", image.height},
+                       {"data", base64_of_floats(image.rgb)}});
 }
 
 template <class Record>
@@ -124,13 +124,13 @@ PowerFit fit_error_against_time(const SpeedCurve& curve) {
 
 Json curve_to_json(const SpeedCurve& curve) {
   const PowerFit fit = fit_error_against_time(curve);
-  return {{"strategy", curve.strategy},
-          {"heuristic", curve.heuristic},
-          {"sampler", curve.sampler},
-          {"points", list_to_json(curve.points)},
-          {"factor", json_from_double(fit.factor)},
-          {"slope", json_from_double(fit.exponent)},
-          {"slope_error", json_from_double(fit.exponent_error)}};
+  return Json::object({{"strategy", curve.strategy},
+                       {"heuristic", curve.heuristic},
+                       {"sampler", curve.sampler},
+                       {"points", list_to_json(curve.points)},
+                       {"factor", json_from_double(fit.factor)},
+                       {"slope", json_from_double(fit.exponent)},
+                       {"slope_error", json_from_double(fit.exponent_error)}});
 }
 
 Json speed_to_json(const std::vector<SpeedPoint>& points) {
@@ -138,7 +138,7 @@ Json speed_to_json(const std::vector<SpeedPoint>& points) {
   for (const SpeedScene& scene : curves_by_scene(points)) {
     Json curves = Json::array();
     for (const SpeedCurve& curve : scene.curves) curves.push_back(curve_to_json(curve));
-    scenes.push_back({{"scene", scene.name}, {"curves", std::move(curves)}});
+    scenes.push_back(Json::object({{"scene", scene.name}, {"curves", std::move(curves)}}));
   }
   return scenes;
 }
@@ -179,20 +179,20 @@ std::string page_data(const PageInput& input) {
   const Results& results = input.results;
   Json images = Json::array();
   for (const PageImage& image : input.images) images.push_back(image_to_json(image));
-  const Json data = {{"summary", summary_to_json(summarise(results))},
-                     {"environments", list_to_json(results.environments)},
-                     {"warnings", warnings_to_json(results.warnings)},
-                     {"checks", checks_to_json(results.checks)},
-                     {"images", std::move(images)},
-                     {"renders", list_with_exact_seeds(results.renders)},
-                     {"speed", speed_to_json(results.speed)},
-                     {"ray_costs", list_to_json(results.ray_costs)},
-                     {"bars", bars_to_json(results.bars)},
-                     {"causes", list_with_exact_seeds(results.causes)},
-                     {"stability", list_to_json(results.stability)},
-                     {"figures", list_to_json(results.figures)},
-                     {"tables", list_to_json(results.tables)}};
-  std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const Json data = Json::object({{"summary", summary_to_json(summarise(results))},
+                                  {"environments", list_to_json(results.environments)},
+                                  {"warnings", warnings_to_json(results.warnings)},
+                                  {"checks", checks_to_json(results.checks)},
+                                  {"images", std::move(images)},
+                                  {"renders", list_with_exact_seeds(results.renders)},
+                                  {"speed", speed_to_json(results.speed)},
+                                  {"ray_costs", list_to_json(results.ray_costs)},
+                                  {"bars", bars_to_json(results.bars)},
+                                  {"causes", list_with_exact_seeds(results.causes)},
+                                  {"stability", list_to_json(results.stability)},
+                                  {"figures", list_to_json(results.figures)},
+                                  {"tables", list_to_json(results.tables)}});
+  std::string text = data.dump();
   escape_for_script(text);
   return text;
 }

@@ -37,7 +37,7 @@ void add_environment(std::vector<RunEnvironment>& environments, RunEnvironment e
 }
 
 void add_document(Results& results, const std::string& text, const fs::path& directory) {
-  const std::string format = detail::format_of(detail::parse_json(text));
+  const std::string format = detail::format_of(Json::parse(text));
   if (format == detail::kCheckFormat) {
     results.checks.push_back(parse_check(text));
   } else if (format == detail::kRenderFormat) {
@@ -86,7 +86,7 @@ void read_lines(Results& results, const fs::path& file, const std::string& text)
 /// A whole file as one document; those that state no format belong to somebody else.
 void read_single(Results& results, const fs::path& file, const std::string& text) {
   try {
-    if (detail::format_of(detail::parse_json(text)).empty()) return;
+    if (detail::format_of(Json::parse(text)).empty()) return;
     add_document(results, text, file.parent_path());
   } catch (const FormatError& error) {
     results.warnings.push_back({file, 0, error.what()});

@@ -2,16 +2,16 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "json.h"
 #include "samples.h"
 
 namespace plumbline::tests {
 namespace {
 
-using Json = nlohmann::json;
 using reports::FormatError;
+using reports::detail::Json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -74,9 +74,9 @@ TEST(Formats, RenderRecordHoldsWhatTheCommandPromises) {
   EXPECT_EQ(json["format"], "plumbline.render/1");
   for (const char* field : {"scene", "strategy", "spp", "seconds", "camera_rays", "bounce_rays",
                             "shadow_rays", "rejected", "non_finite", "mean", "seed", "version"}) {
-    EXPECT_TRUE(json.contains(field)) << field;
+    EXPECT_TRUE(json.find(field) != nullptr) << field;
   }
-  EXPECT_EQ(json["seed"].get<std::uint64_t>(), 18'446'744'073'709'551'614u);
+  EXPECT_EQ(json["seed"].as_uint64(), 18'446'744'073'709'551'614u);
 }
 
 TEST(Formats, EachStatesItsFormatFirstOnOneLine) {

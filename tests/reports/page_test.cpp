@@ -9,7 +9,6 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <stdexcept>
 #include <string>
@@ -17,15 +16,16 @@
 
 #include <plumbline/reports/page.h>
 
+#include "json.h"
 #include "samples.h"
 
 namespace plumbline::tests {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 using reports::make_page;
 using reports::PageInput;
+using reports::detail::Json;
 
 PageInput sample_input() {
   PageInput input;
@@ -157,7 +157,7 @@ TEST(Page, PixelsArriveBitForBit) {
                        1,
                        {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(3 * pixels)}};
     const Json image = data_of(make_page(input))["images"][0];
-    const std::vector<std::uint8_t> bytes = decode_base64(image["data"].get<std::string>());
+    const std::vector<std::uint8_t> bytes = decode_base64(image["data"].as_string());
     ASSERT_EQ(bytes.size(), 12 * pixels);
     EXPECT_EQ(std::memcmp(bytes.data(), input.images[0].rgb.data(), bytes.size()), 0);
   }
@@ -186,12 +186,12 @@ TEST(Page, SlopeOfErrorAgainstTimeIsFittedPerCurve) {
     }
   }
   const Json curves = data_of(make_page(input))["speed"][0]["curves"];
-  ASSERT_EQ(curves.size(), 2u);
+  ASSERT_EQ(curves.elements().size(), 2u);
   EXPECT_EQ(curves[0]["strategy"], "bsdf");
-  EXPECT_NEAR(curves[0]["slope"].get<double>(), -0.5, 1e-12);
-  EXPECT_NEAR(curves[0]["factor"].get<double>(), 0.3, 1e-12);
-  EXPECT_NEAR(curves[1]["factor"].get<double>(), 0.15, 1e-12);
-  EXPECT_GT(curves[0]["slope_error"].get<double>(), 0);
+  EXPECT_NEAR(curves[0]["slope"].as_double(), -0.5, 1e-12);
+  EXPECT_NEAR(curves[0]["factor"].as_double(), 0.3, 1e-12);
+  EXPECT_NEAR(curves[1]["factor"].as_double(), 0.15, 1e-12);
+  EXPECT_GT(curves[0]["slope_error"].as_double(), 0);
 }
 
 TEST(WritePage, MakesMissingDirectoriesAndLeavesNothingElse) {

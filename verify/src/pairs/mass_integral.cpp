@@ -262,10 +262,11 @@ class Integrator {
       result_.total += result_.value[b];
       result_.variance_of_total += result_.variance[b];
     }
-    // Of a single bin the few nodes in its cells may miss a jump, of all bins together they do not.
+    // The few nodes of a single bin may miss a jump that those of all bins together show.
     for (const TreeCell& cell : cells_) {
       if (cell.halves != 0) continue;
-      result_.variance[cell.bin] += std::max(0.0, cell.key * cell.key - cell.measured);
+      const double expected = cell.key / kHope;
+      result_.variance[cell.bin] += std::max(0.0, expected * expected - cell.measured);
     }
     result_.finite = finite_;
     result_.unseen = std::log(1 / kPassLevel) / static_cast<double>(q_.spread);
