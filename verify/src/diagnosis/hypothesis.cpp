@@ -50,7 +50,7 @@ std::optional<Explanation> try_one(const Observations& observations, const Hypot
 std::vector<Explanation> explain(const Observations& observations,
                                  const std::vector<Hypothesis>& hypotheses) {
   std::vector<Explanation> admissible;
-  constexpr std::size_t kFewestExact = 100;
+  constexpr std::size_t kFewestExact = 40;
   for (const Hypothesis& h : hypotheses) {
     if (h.needs_exact && observations.exact() < kFewestExact) continue;
     if (auto e = try_one(observations, h)) admissible.push_back(std::move(*e));
@@ -157,6 +157,7 @@ std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Bla
   add(factor_hypotheses(evidence, blame, observations));
   add(argument_hypotheses(evidence, blame, of_value));
   add(parametric_hypotheses(evidence, blame, observations));
+  add(width_hypotheses(evidence, blame));
   add(light_hypotheses(evidence, blame));
   if (!of_value) add(number_hypotheses(evidence, blame));
   if (!of_value) add(mixture_hypotheses(evidence, blame, observations));
