@@ -11,7 +11,7 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr std::size_t kPointsPerPart = 32;
+constexpr std::size_t kPointsPerPart = 24;
 // Of many parts fewer points each: all of them have to be searched for at each point.
 constexpr std::size_t kMostPoints = 96;
 
@@ -96,7 +96,7 @@ void Apart::add_points_of_two_ways() {
                                    {two_ways_->way(1), pair.domain.dimension(), pair.epsilon}};
   constexpr double kSeldom = 1e-4;
   for (std::size_t of = 0; of < 2; ++of) {
-    for (std::size_t i = 0; i < 2 * kPointsPerPart; ++i) {
+    for (std::size_t i = 0; i < kPointsPerPart; ++i) {
       const Uniforms u{random.uniform(), pair.domain.dimension() > 1 ? random.uniform() : 0, 0};
       const auto s = two_ways_->way(of)(u);
       if (!has_density(s) || two_ways_->probability(of, u) < kSeldom) continue;

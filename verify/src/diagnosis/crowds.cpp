@@ -63,10 +63,10 @@ bool is_unknown_to_pdf(const ViewEvidence& view, const std::vector<SampleRecord>
 }  // namespace
 
 std::optional<Finding> find_samples_near_a_line(const ReportEvidence& evidence) {
-  constexpr int kSamples = 20'000;
+  constexpr int kSamples = 10'000;
   constexpr double kHorizon = 0.05;
   for (const ViewEvidence* v : views_to_ask(evidence)) {
-    if (!v->failed || !v->pair->domain.directions()) continue;
+    if (!v->failed || !has_wo(*v) || !v->pair->domain.directions()) continue;
     std::vector<SampleRecord> samples = draw_samples(*v, kSamples);
     std::erase_if(samples, [](const SampleRecord& s) { return s.mass > 0; });
     std::sort(samples.begin(), samples.end(),

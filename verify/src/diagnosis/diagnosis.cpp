@@ -139,6 +139,11 @@ class Diagnosis {
     const Observations density = few_exact ? parts.with_exact(seen) : seen;
     const auto all = all_hypotheses(evidence_, blame, density, false);
     auto found = explain(density, all);
+    std::vector<Hypothesis> widths;
+    if (found.empty()) {
+      widths = width_hypotheses(evidence_, blame);
+      found = explain(density, widths);
+    }
     if (few_exact) {
       std::erase_if(found, [&parts](const Explanation& e) { return parts.contradict(e); });
     }
@@ -286,6 +291,11 @@ class Diagnosis {
     }
     const auto all = all_hypotheses(evidence_, blame, weight, true);
     std::vector<Explanation> found = explain(weight, all);
+    std::vector<Hypothesis> widths;
+    if (found.empty()) {
+      widths = width_hypotheses(evidence_, blame);
+      found = explain(weight, widths);
+    }
     // What f is blamed for has to make it as asymmetric as it is; if f is symmetric, the weight is.
     const bool asymmetric = reciprocity_fails(evidence_);
     if (asymmetric) {

@@ -157,7 +157,6 @@ std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Bla
   add(factor_hypotheses(evidence, blame, observations));
   add(argument_hypotheses(evidence, blame, of_value));
   add(parametric_hypotheses(evidence, blame, observations));
-  add(width_hypotheses(evidence, blame));
   add(light_hypotheses(evidence, blame));
   if (!of_value) add(number_hypotheses(evidence, blame));
   if (!of_value) add(mixture_hypotheses(evidence, blame, observations));
