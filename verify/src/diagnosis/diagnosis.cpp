@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/direct.h"
 #include "diagnosis/discrete.h"
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
 #include "diagnosis/part_explanations.h"
-#include "diagnosis/parts.h"
+#include "diagnosis/shape.h"
 #include "diagnosis/strays.h"
 #include "diagnosis/values.h"
 #include "text.h"
@@ -43,6 +44,8 @@ class Diagnosis {
     if (const auto f = find_atoms_of_other_mass(evidence_)) return named(*f);
     if (const auto f = find_points_not_finite(evidence_)) return named(*f);
     if (const auto f = find_samples_on_a_line(evidence_)) return named(*f);
+    if (const auto f = find_samples_near_a_line(evidence_)) return named(*f);
+    if (const auto f = find_negative_density(evidence_)) return named(*f);
     Cause cause = of_the_rest();
     if (const auto f = find_not_finite(evidence_)) {
       // A number that is none may follow from what was named, or be all there is.
@@ -102,7 +105,8 @@ class Diagnosis {
       std::vector<Hypothesis> all;
       for (auto&& list :
            {constant_hypotheses(evidence_, blame, lobe), factor_hypotheses(evidence_, blame, lobe),
-            parametric_hypotheses(evidence_, blame, lobe)}) {
+            parametric_hypotheses(evidence_, blame, lobe), width_hypotheses(evidence_, blame),
+            number_hypotheses(evidence_, blame)}) {
         all.insert(all.end(), list.begin(), list.end());
       }
       return from(explain(lobe, all));
@@ -122,126 +126,71 @@ class Diagnosis {
     return " (the pdf in the record is right)";
   }
 
-  Cause of_density(const Observations& density) {
+  Cause of_density(const Observations& seen) {
     const Blame blame{"pdf()", "the density of the samples"};
     if (all_rejected(evidence_)) return {};
-    if (auto cause = explain_strays(evidence_, density)) return *cause;
+    if (auto cause = explain_strays(evidence_, seen)) return *cause;
     if (const auto f = find_rounded_cap(evidence_)) return named(*f);
-    if (auto cause = of_atoms(density)) return *cause;
-    const auto all = all_hypotheses(evidence_, blame, density, false);
-    auto found = explain(density, all);
+    if (const auto f = explain_atoms(evidence_, seen)) return named(*f);
+    // Counts admit what a few exact ratios do not.
     PartExplanations parts(evidence_);
     constexpr std::size_t kManyExact = 100;
-    if (density.exact() < kManyExact) {
+    const bool few_exact = seen.exact() < kManyExact;
+    const Observations density = few_exact ? parts.with_exact(seen) : seen;
+    const auto all = all_hypotheses(evidence_, blame, density, false);
+    auto found = explain(density, all);
+    std::vector<Hypothesis> widths;
+    if (found.empty()) {
+      widths = width_hypotheses(evidence_, blame);
+      found = explain(density, widths);
+    }
+    if (few_exact) {
       std::erase_if(found, [&parts](const Explanation& e) { return parts.contradict(e); });
     }
     // Where nothing falls, a factor explains nothing.
     constexpr double kNever = 0.02;
     if (!found.empty() && found.front().hypothesis->kind == CauseKind::constant_per_hemisphere &&
-        never_sampled() > kNever) {
+        never_sampled(evidence_) > kNever) {
       std::erase_if(found, [](const Explanation& e) {
         return e.hypothesis->kind == CauseKind::constant_per_hemisphere;
       });
     }
     // Of a mixture whose parts are known, no number has to be guessed.
     if (found.empty() || found.front().cost >= kPerNumber) {
-      if (const auto f = parts.by_parts(!found.empty())) return named(*f);
+      if (auto cause = of_parts(parts, found)) return *cause;
     }
     if (!found.empty()) return from(found, which_function(found.front()));
     if (const auto f = explain_by_branches(evidence_)) return named(*f);
     if (const auto f = explain_discrete(evidence_)) return named(*f);
-    if (auto cause = of_shape(density)) return *cause;
+    if (const auto f = explain_shape(evidence_, density)) return named(*f);
     return {};
   }
 
-  /// Largest share of a view's pdf() that lies where no sample does.
-  double never_sampled() const {
-    double never = 0;
-    for (const ViewEvidence& v : evidence_.views) never = std::max(never, share_never_sampled(v));
-    return never;
-  }
-
-  /// The continuous part and the atoms, each with or without the probability that is its own.
-  std::optional<Cause> of_atoms(const Observations& density) const {
-    double atoms = 0;
-    for (const ViewEvidence& v : evidence_.views) {
-      if (v.mass) atoms = std::max(atoms, v.mass->atoms);
+  /// Wrong probabilities of parts, or a factor of one part's pdf, whichever takes fewer numbers.
+  static std::optional<Cause> of_parts(PartExplanations& parts,
+                                       const std::vector<Explanation>& found) {
+    const auto probabilities = parts.by_parts(!found.empty());
+    if (probabilities && (parts.is_steady() || parts.views_known() < 2)) {
+      return named(*probabilities);
     }
-    if (!(atoms > 1e-9)) return std::nullopt;
-    const auto left = [](const Place& p) { return p.view->mass ? 1 - p.view->mass->atoms : 1.0; };
-    if (density.judge([left](const Place& p, auto) { return p.base * left(p); }).admissible) {
-      return Cause{CauseKind::lobe_probability,
-                   "1 − F, the probability that the atoms leave to the rest, is missing from pdf()",
-                   {},
-                   CauseKind::none};
-    }
-    if (density.judge([left](const Place& p, auto) { return p.base / left(p); }).admissible) {
-      return Cause{CauseKind::lobe_probability,
-                   "1 − F, the probability that the atoms leave to the rest, is there twice in "
-                   "pdf()",
-                   {},
-                   CauseKind::none};
-    }
-    const auto others = [left](const Place& p, auto) {
-      return p.base * left(p) / std::max(1e-12, 1 - left(p));
-    };
-    if (density.judge(others).admissible) {
-      return Cause{CauseKind::lobe_probability,
-                   "the rest has the probability of the atoms in pdf(), in place of what they "
-                   "leave to it",
-                   {},
-                   CauseKind::none};
-    }
-    if (density.without_mass().judge(as_stated).admissible) {
-      return Cause{CauseKind::atom_as_density,
-                   "the mass that atoms state is not the share of samples that they get",
-                   {},
-                   CauseKind::none};
-    }
-    return std::nullopt;
-  }
-
-  /// What no function of the point explains: symmetries, and where samples are missing.
-  std::optional<Cause> of_shape(const Observations& density) const {
-    double excess = 0;
-    for (const ViewObservations& v : density.views()) {
-      for (const CountedBin& b : v.bins) {
-        excess = std::max(excess, (b.observed - b.expected) / std::sqrt(b.expected + 1));
+    // Other probabilities from each direction are as many numbers.
+    const auto one = parts.in_one_part();
+    const double least = probabilities   ? 1.5 * kPerNumber
+                         : found.empty() ? std::numeric_limits<double>::infinity()
+                                         : found.front().cost - kClose;
+    if (one && one->cost < least) {
+      Cause cause = one->cause;
+      if (probabilities && one->cost >= kPerNumber && cause.second.empty()) {
+        cause.second = probabilities->words;
+        cause.second_kind = probabilities->kind;
       }
+      return cause;
     }
-    constexpr double kCertain = 7;
-    // A number that chooses and is used again, wrongly, breaks symmetries just so.
-    if (excess < kCertain && samples_break_a_symmetry(evidence_) &&
-        std::none_of(evidence_.views.begin(), evidence_.views.end(), [](const ViewEvidence& v) {
-          return choice_is_used_again(*v.pair, parts_of(*v.pair));
-        })) {
-      return Cause{CauseKind::tangent_frame,
-                   "samples lie unevenly to the left and right of the plane of incidence, where "
-                   "pdf() is the same, and are nowhere denser than it says: they are drawn in "
-                   "another tangent frame than the one that pdf() is for",
-                   {},
-                   CauseKind::none};
-    }
-    // A part of a part lies in it.
-    if (!(excess > kCertain) ||
-        std::any_of(evidence_.views.begin(), evidence_.views.end(),
-                    [](const ViewEvidence& v) { return v.stray_share > 0; })) {
-      return std::nullopt;
-    }
-    const SamplingPair& pair = *evidence_.views.front().pair;
-    const Parts parts = parts_of(pair);
-    // At least one part in as many of each is sampled.
-    const double most = parts.borders.empty() ? 1 : 1 - 0.5 / static_cast<double>(parts.count());
-    const double never = never_sampled();
-    if (never > 0.02 && never <= most && choice_is_used_again(pair, parts)) {
-      return Cause{CauseKind::numbers_reused,
-                   "no sample falls where " + number(std::round(1e3 * never) / 10) +
-                       " % of pdf() is, and more than expected elsewhere: a number that has chosen "
-                       "a part is used again without being stretched to [0, 1)",
-                   {},
-                   CauseKind::none};
-    }
-    return std::nullopt;
+    if (probabilities) return named(*probabilities);
+    if (!found.empty()) return std::nullopt;
+    auto ways = parts.by_two_ways();
+    if (!ways) ways = parts.by_fresnel();
+    return ways ? std::optional(named(*ways)) : std::nullopt;
   }
 
   Cause of_record(const Observations& record) {
@@ -342,6 +291,11 @@ class Diagnosis {
     }
     const auto all = all_hypotheses(evidence_, blame, weight, true);
     std::vector<Explanation> found = explain(weight, all);
+    std::vector<Hypothesis> widths;
+    if (found.empty()) {
+      widths = width_hypotheses(evidence_, blame);
+      found = explain(weight, widths);
+    }
     // What f is blamed for has to make it as asymmetric as it is; if f is symmetric, the weight is.
     const bool asymmetric = reciprocity_fails(evidence_);
     if (asymmetric) {

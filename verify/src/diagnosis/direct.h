@@ -21,6 +21,13 @@ std::optional<Finding> find_stale_state(const ReportEvidence& evidence);
 /// Samples that share a coordinate to the last bit, or of which there are few different ones.
 std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence);
 
+/// Samples that crowd around one cosine, where the pdf is as on either side: lifted to the horizon,
+/// or clamped and normalised again.
+std::optional<Finding> find_samples_near_a_line(const ReportEvidence& evidence);
+
+/// A density that is negative in a good part of the domain.
+std::optional<Finding> find_negative_density(const ReportEvidence& evidence);
+
 /// Records of atoms that state a density; nothing but atoms beside a density.
 std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence);
 

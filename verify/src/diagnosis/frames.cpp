@@ -1,6 +1,7 @@
 #include "diagnosis/frames.h"
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -35,6 +36,29 @@ std::pair<Vec3, Vec3> mean_directions(const ViewEvidence& view) {
   return {of_samples, of_pdf};
 }
 
+/// The pdf is the same all around its mean direction, as that of a cone or a lobe, not of a map.
+bool is_round(const ViewEvidence& view, const Vec3& axis) {
+  constexpr int kPoints = 24;
+  constexpr double kSame = 0.02;
+  double alike = 0, tested = 0;
+  const Vec3 other = std::abs(axis[2]) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
+  const Vec3 right = normalized(cross(other, axis)), up = cross(axis, right);
+  for (int i = 1; i < kPoints; ++i) {
+    const double angle = std::numbers::pi * std::pow(0.75, i);
+    const auto at = [&](double azimuth) {
+      const Vec3 across = sum(scaled(right, std::cos(azimuth)), scaled(up, std::sin(azimuth)));
+      return pdf_at(view, sum(scaled(axis, std::cos(angle)), scaled(across, std::sin(angle))));
+    };
+    const double here = at(0.2);
+    for (const double azimuth : {1.7, 2.9, 4.4}) {
+      if (!(here > 0)) continue;
+      ++tested;
+      alike += std::abs(at(azimuth) / here - 1) < kSame ? 1 : 0;
+    }
+  }
+  return tested > 0 && alike > 0.9 * tested;
+}
+
 std::vector<double> scaled_to_numbers(const Vec3& axis, double angle) {
   return {angle * axis[0], angle * axis[1], angle * axis[2]};
 }
@@ -63,8 +87,9 @@ void add_turned_as_a_whole(std::vector<Hypothesis>& list, const ReportEvidence& 
     }
   }
   // The numbers are measured, and only made more precise by the fit.
-  // A map that is turned by a column, which is likelier, costs less.
-  h.charge = [](const auto&) { return std::optional(13.0 - 3 * kPerNumber); };
+  // A map that is turned by a column, which is likelier, costs less; what is round has none.
+  const double cost = is_round(evidence.views.front(), to) ? 8 : 13;
+  h.charge = [cost](const auto&) { return std::optional(cost - 3 * kPerNumber); };
   h.prediction = [ask](const Place& p, std::span<const double> n) {
     const Vec3 r{n[0], n[1], n[2]};
     const double by = length(r);
@@ -82,6 +107,23 @@ void add_turned_as_a_whole(std::vector<Hypothesis>& list, const ReportEvidence& 
     }
     return "samples lie around (" + text(from) + "), " + blame.function + " is the same around (" +
            text(to) + "): their frames differ";
+  };
+  list.push_back(h);
+  if (apart) return;
+  // By a quarter of a turn: the two axes across it are exchanged.
+  h.kind = CauseKind::mirrored;
+  h.charge = [cost](const std::vector<std::vector<double>>& n) -> std::optional<double> {
+    constexpr double kSame = 0.02;
+    const double by = length({n.front()[0], n.front()[1], n.front()[2]});
+    if (std::abs(by - std::numbers::pi / 2) > kSame) return std::nullopt;
+    return cost - 1 - 3 * kPerNumber;
+  };
+  h.words = [blame, to](std::span<const double>) {
+    std::string axis;
+    for (const double c : to) {
+      axis += (axis.empty() ? "" : ", ") + number(std::round(1e3 * c) / 1e3);
+    }
+    return "the two directions across the axis (" + axis + ") are exchanged in " + blame.function;
   };
   list.push_back(std::move(h));
 }

@@ -50,7 +50,7 @@ std::optional<Explanation> try_one(const Observations& observations, const Hypot
 std::vector<Explanation> explain(const Observations& observations,
                                  const std::vector<Hypothesis>& hypotheses) {
   std::vector<Explanation> admissible;
-  constexpr std::size_t kFewestExact = 100;
+  constexpr std::size_t kFewestExact = 40;
   for (const Hypothesis& h : hypotheses) {
     if (h.needs_exact && observations.exact() < kFewestExact) continue;
     if (auto e = try_one(observations, h)) admissible.push_back(std::move(*e));

@@ -92,7 +92,14 @@ std::vector<Hypothesis> light_hypotheses(const ReportEvidence& evidence, const B
 std::vector<Hypothesis> parametric_hypotheses(const ReportEvidence& evidence, const Blame& blame,
                                               const Observations& observations);
 
-/// All of these; of a density also what numbers and mixtures tell.
+/// Fresnel's reflectance, missing, too many, or of another cosine; part of the parametric ones.
+void add_fresnel(std::vector<Hypothesis>& list, const ReportEvidence& evidence, const Blame& blame);
+
+/// Lobes whose width differs: around a fibre or the mirror direction, stretched ones.
+std::vector<Hypothesis> width_hypotheses(const ReportEvidence& evidence, const Blame& blame);
+
+/// All of these but the widths, which are looked at where none of the others is admissible; of a
+/// density also what numbers and mixtures tell.
 std::vector<Hypothesis> all_hypotheses(const ReportEvidence& evidence, const Blame& blame,
                                        const Observations& observations, bool of_value);
 

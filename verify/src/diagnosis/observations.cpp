@@ -185,7 +185,8 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
   const double allowed = normal_quantile(kLevel / 2 / std::max(1.0, static_cast<double>(bins_)));
   const ViewObservations& o = views_[view];
   const double exact = static_cast<double>(o.exact.size());
-  const double most = o.exact.size() < 100 ? 0 : std::max(kFolds, kFoldShare * exact);
+  const double most =
+      o.missed * exact + (o.exact.size() < 100 ? 0 : std::max(kFolds, kFoldShare * exact));
   double outliers = 0, close = 0, unknown_points = 0;
   const double near = tolerance_of_differences(o.view->pair->epsilon);
   for (const ExactPoint& p : o.exact) {

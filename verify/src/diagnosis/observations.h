@@ -48,8 +48,15 @@ struct ViewObservations {
   std::vector<ExactPoint> exact;
   std::vector<CountedBin> bins;
   std::vector<std::size_t> edges_last;  ///< the bins, those with a border at the end
-  bool judge_mass = false;              ///< ∫prediction + atoms + rejected = 1
+  double missed = 0;        ///< share of the exact ratios that may be those of half a way
+  bool judge_mass = false;  ///< ∫prediction + atoms + rejected = 1
   bool judge_strays = false;
+};
+
+/// Exact ratios of one view.
+struct ExactOfView {
+  const ViewEvidence* view = nullptr;
+  std::vector<ExactPoint> points;
 };
 
 /// All that one quantity was seen to be in a whole report.
@@ -60,6 +67,13 @@ class Observations {
 
   /// One of the series of points alone.
   static Observations of_series(const ReportEvidence& evidence, RatioKind kind, int lobe = -1);
+
+  /// Points alone, of a few of the views.
+  static Observations of_points(const ReportEvidence& evidence,
+                                const std::vector<ExactOfView>& exact, double missed);
+
+  /// The same with more exact ratios, found by a search that misses a few ways to a point.
+  Observations with_points(const std::vector<ExactOfView>& exact, double missed) const;
 
   /// The same where samples fall where the pdf is positive; and without the balance of mass.
   Observations without_strays() const;

@@ -82,6 +82,31 @@ Observations Observations::of_density(const ReportEvidence& evidence) {
   return all;
 }
 
+Observations Observations::with_points(const std::vector<ExactOfView>& exact, double missed) const {
+  Observations more = *this;
+  for (const ExactOfView& e : exact) {
+    for (ViewObservations& o : more.views_) {
+      if (o.view != e.view) continue;
+      for (const ExactPoint& p : e.points) {
+        if (usable(p.ratio, p.place.base)) o.exact.push_back(p);
+      }
+      o.missed = missed;
+    }
+  }
+  more.prepare();
+  return more;
+}
+
+Observations Observations::of_points(const ReportEvidence& evidence,
+                                     const std::vector<ExactOfView>& exact, double missed) {
+  Observations none;
+  for (const ViewEvidence& view : evidence.views) {
+    none.views_.emplace_back();
+    none.views_.back().view = &view;
+  }
+  return none.with_points(exact, missed);
+}
+
 Observations Observations::of_series(const ReportEvidence& evidence, RatioKind kind, int lobe) {
   Observations all;
   for (const ViewEvidence& view : evidence.views) {

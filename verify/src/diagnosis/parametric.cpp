@@ -94,6 +94,17 @@ void add_masking(std::vector<Hypothesis>& list, const Blame& blame) {
            smith_g1(p.wo, wrong);
   };
   list.push_back(other);
+  const auto together = [](const Place& p, double a) {
+    return 1 / (1 / smith_g1(p.wo, a) + 1 / smith_g1(p.x, a) - 1);
+  };
+  other.words = [blame](std::span<const double> n) {
+    return "G of both directions in " + blame.function + " is of another roughness, " +
+           alpha(n[1]) + " for " + alpha(n[0]);
+  };
+  other.prediction = [together](const Place& p, std::span<const double> n) {
+    return p.base * together(p, std::exp(n[0])) / together(p, std::exp(n[1]));
+  };
+  list.push_back(other);
 }
 
 /// Distributions of normals with two roughnesses.
@@ -116,7 +127,12 @@ void add_roughness(std::vector<Hypothesis>& list, const Blame& blame) {
        [](const Place& p, double a) {
          return ggx_d(half_of(p), a) / (1 / smith_g1(p.wo, a) + 1 / smith_g1(p.x, a) - 1);
        }},
-      {"Beckmann", 0.4, [](const Place& p, double a) { return beckmann_d(half_of(p), a); }}};
+      {"Beckmann", 0.4, [](const Place& p, double a) { return beckmann_d(half_of(p), a); }},
+      // @source Burley 2012, Physically-based shading at Disney, Eq. 4
+      {"GTR of exponent 1", 0.5, [](const Place& p, double a) {
+         const double c = half_of(p)[2], a2 = a * a;
+         return (a2 - 1) / (std::log(a2) * (1 + (a2 - 1) * c * c));
+       }}};
   for (const Form& f : forms) {
     const auto add =
         [&](double complexity, Starts starts,
@@ -184,109 +200,6 @@ void add_exponents(std::vector<Hypothesis>& list, bool bsdf, const Blame& blame)
   }
 }
 
-void add_fresnel(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
-                 const Blame& blame) {
-  struct Cosine {
-    const char* name;
-    double rank;
-    std::function<double(const Place&)> value;
-  };
-  const Cosine cosines[] = {{"wo·h", 0, [](const Place& p) { return dot(p.wo, half_of(p)); }},
-                            {"cosθo", 0.3, [](const Place& p) { return p.wo[2]; }},
-                            {"cosθi", 0.4, [](const Place& p) { return p.x[2]; }}};
-  // What F is of the number n: exact with the index of the BSDF, with any, and Schlick's.
-  struct Law {
-    double rank;
-    Starts starts;
-    const char* name;
-    std::function<double(const Place&, double cosine, std::span<const double>)> f;
-  };
-  std::vector<Law> laws = {
-      {0,
-       {{-3.2}, {-1.0}, {0.5}},
-       "Schlick",
-       [](const Place&, double c, auto n) {
-         return fresnel_schlick(c, 1 / (1 + std::exp(-n[0])));
-       }},
-      {0.1, {{0.4}, {-0.4}, {0.1}}, "dielectric", [](const Place&, double c, auto n) {
-         return fresnel_dielectric(c, std::exp(n[0]));
-       }}};
-  if (evidence.views.front().eta != 1) {
-    laws.push_back({0, {}, "of the index given", [](const Place& p, double c, auto) {
-                      const double eta = p.view->eta;
-                      return fresnel_dielectric(c, p.wo[2] < 0 ? 1 / eta : eta);
-                    }});
-  }
-  struct Form {
-    const char* words;
-    double rank;
-    CauseKind kind;
-    std::function<double(double f, bool through)> ratio;
-  };
-  const Form forms[] = {
-      {"F of reflection and 1 − F of transmission are missing from ", 0,
-       CauseKind::lobe_probability, [](double f, bool through) { return through ? 1 - f : f; }},
-      {"F and 1 − F choose the side, a half stands for either in ", 1, CauseKind::fresnel,
-       [](double f, bool through) { return 2 * (through ? 1 - f : f); }},
-      {"F of reflection and 1 − F of transmission are exchanged in ", 1, CauseKind::fresnel,
-       [](double f, bool through) { return through ? (1 - f) / f : f / (1 - f); }},
-      {"F of reflection is missing from ", 1, CauseKind::fresnel,
-       [](double f, bool through) { return through ? 1 : f; }},
-      {"F of reflection is too many in ", 1.1, CauseKind::fresnel,
-       [](double f, bool through) { return through ? 1 : 1 / f; }},
-      {"F of reflection stands for 1 − F of transmission in ", 1, CauseKind::fresnel,
-       [](double f, bool through) { return through ? (1 - f) / f : 1; }},
-      {"1 − F of transmission is missing from ", 1, CauseKind::fresnel,
-       [](double f, bool through) { return through ? 1 - f : 1; }},
-      {"1 − F of transmission is too many in ", 1.1, CauseKind::fresnel,
-       [](double f, bool through) { return through ? 1 / (1 - f) : 1; }},
-      {"1 − F is missing from ", 2, CauseKind::fresnel, [](double f, bool) { return 1 - f; }},
-      {"1 − F is too many in ", 2.1, CauseKind::fresnel,
-       [](double f, bool) { return 1 / (1 - f); }}};
-  for (const Cosine& c : cosines) {
-    for (const Law& law : laws) {
-      for (const Form& form : forms) {
-        Hypothesis h;
-        h.kind = form.kind;
-        h.complexity = 1 + c.rank + law.rank + form.rank;
-        h.starts = law.starts;
-        h.prediction = [cosine = c.value, f = law.f, ratio = form.ratio](
-                           const Place& p, std::span<const double> n) {
-          return p.base * ratio(f(p, cosine(p), n), transmits(p.wo, p.x));
-        };
-        h.words = [text = std::string(form.words) + blame.function + " (Fresnel, " + law.name +
-                          ", of " + c.name + ")"](std::span<const double>) { return text; };
-        list.push_back(std::move(h));
-      }
-    }
-  }
-}
-
-/// The side is chosen by F of one cosine, and pdf() has F of another.
-void add_other_fresnel(std::vector<Hypothesis>& list, const Blame& blame) {
-  struct Cosine {
-    const char* name;
-    double (*value)(const Place&);
-  };
-  constexpr Cosine kOfSurface{"cosθo", [](const Place& p) { return p.wo[2]; }};
-  constexpr Cosine kOfHalf{"wo·h", [](const Place& p) { return dot(p.wo, half_of(p)); }};
-  for (const auto& [right, wrong] :
-       {std::pair{kOfSurface, kOfHalf}, std::pair{kOfHalf, kOfSurface}}) {
-    Hypothesis h;
-    h.kind = CauseKind::fresnel;
-    h.complexity = 2;
-    h.prediction = [r = right.value, w = wrong.value](const Place& p, std::span<const double>) {
-      const double eta = p.wo[2] < 0 ? 1 / p.view->eta : p.view->eta;
-      const double f = fresnel_dielectric(r(p), eta), g = fresnel_dielectric(w(p), eta);
-      return p.base * (transmits(p.wo, p.x) ? (1 - f) / (1 - g) : f / g);
-    };
-    h.words = [text = std::string("the side is chosen by F of ") + right.name + ", but " +
-                      blame.function + " has F of " +
-                      wrong.name](std::span<const double>) { return text; };
-    list.push_back(std::move(h));
-  }
-}
-
 /// Phase functions and lobes around an axis: another width, or the other sign.
 void add_axial(std::vector<Hypothesis>& list, const Blame& blame) {
   const auto hg = [](double c, double g) {
@@ -344,6 +257,7 @@ void add_rates(std::vector<Hypothesis>& list, const Blame& blame) {
   };
   list.push_back(h);
   h.kind = CauseKind::radius;
+  h.needs_exact = true;
   h.prediction = [](const Place& p, std::span<const double> n) {
     const double t = p.view->pair->domain.chart().to_square(p.x)[0];
     return p.base * std::exp(n[0]) * std::pow(t, n[1]);
@@ -370,7 +284,6 @@ std::vector<Hypothesis> parametric_hypotheses(const ReportEvidence& evidence, co
     add_masking(list, blame);
     add_roughness(list, blame);
     add_fresnel(list, evidence, blame);
-    if (view.eta != 1) add_other_fresnel(list, blame);
   } else {
     add_axial(list, blame);
   }

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <string>
 
+#include "diagnosis/apart.h"
 #include "diagnosis/ask.h"
 #include "diagnosis/fit.h"
-#include "diagnosis/parts.h"
 #include "streams.h"
 #include "text.h"
 
@@ -16,59 +16,15 @@ namespace plumbline::verify {
 
 namespace {
 
-// Views that are taken apart, and points of each part.
+// Views that are taken apart.
 constexpr std::size_t kViews = 2;
-constexpr int kPointsPerPart = 16;
-// A fold that differences do not see, or a branch that the search misses: among so many points few.
-constexpr double kMissed = 0.06;
 
 using Maps = std::vector<std::unique_ptr<PartMap>>;
 
-/// One equation Σ a q/pdf = 1 at a point.
-struct Equation {
-  Vec3 x{};
-  double pdf = 0;
-  std::vector<double> q;
-  double error = 0;
-};
-
-Maps maps_of(const SamplingPair& pair, const Parts& parts) {
-  Maps maps;
-  for (std::size_t i = 0; i < parts.count(); ++i) {
-    maps.push_back(std::make_unique<PartMap>(pair, parts, i));
-    if (!maps.back()->usable()) return {};
-  }
-  return maps;
-}
-
-std::vector<Equation> equations_of(const SamplingPair& pair, const Maps& maps) {
-  std::vector<Equation> equations;
-  Random random = random_for(Stream::part_points);
-  for (const auto& part : maps) {
-    for (int i = 0; i < kPointsPerPart; ++i) {
-      const auto s = part->map()(part->draw(random));
-      if (!has_density(s)) continue;
-      const double pdf = pair.pdf(s->x);
-      if (!(pdf > 0)) continue;
-      Equation e{s->x, pdf, {}, 0};
-      for (const auto& other : maps) {
-        const auto densities = other->densities(s->x);
-        if (!densities) break;
-        double q = 0;
-        for (const DensityAt& d : *densities) {
-          q += d.value / pdf;
-          e.error = std::max(e.error, d.relative_error);
-        }
-        e.q.push_back(q);
-      }
-      if (e.q.size() == maps.size()) equations.push_back(std::move(e));
-    }
-  }
-  return equations;
-}
-
 double residual(const Equation& e, const std::vector<double>& a) {
-  return std::inner_product(a.begin(), a.end(), e.q.begin(), -1.0);
+  double off = -1;
+  for (std::size_t i = 0; i < a.size(); ++i) off += a[i] * e.parts[i].q;
+  return off;
 }
 
 bool holds(const Equation& e, const std::vector<double>& a, double tolerance) {
@@ -83,8 +39,10 @@ std::vector<double> weighed(const std::vector<Equation>& equations, std::size_t 
   for (std::size_t k = 0; k < equations.size(); k += 2) {
     const Equation& e = equations[k];
     for (std::size_t i = 0; i < parts; ++i) {
-      for (std::size_t j = 0; j < parts; ++j) normal[i][j] += weight[k] * e.q[i] * e.q[j];
-      right[i] += weight[k] * e.q[i];
+      for (std::size_t j = 0; j < parts; ++j) {
+        normal[i][j] += weight[k] * e.parts[i].q * e.parts[j].q;
+      }
+      right[i] += weight[k] * e.parts[i].q;
     }
   }
   for (std::size_t i = 0; i < parts; ++i) normal[i][i] *= 1 + 1e-13;
@@ -166,31 +124,18 @@ bool lacks_sines(const Solved& solved, const Maps& maps) {
 
 }  // namespace
 
-/// A view's sampler in parts, and the densities of all of them at points of each.
-struct PartExplanations::Apart {
-  explicit Apart(const ViewEvidence& of) : view(&of), parts(parts_of(*of.pair)) {
-    if (parts.count() < 2) return;
-    maps = maps_of(*of.pair, parts);
-    if (!maps.empty()) equations = equations_of(*of.pair, maps);
-  }
-  bool known() const { return parts.count() >= 2 && equations.size() >= 5 * parts.count(); }
-
-  const ViewEvidence* view;
-  Parts parts;
-  Maps maps;
-  std::vector<Equation> equations;
-};
-
 namespace {
 
-std::optional<Solved> solve_view(const PartExplanations::Apart& apart) {
-  if (!apart.known()) return std::nullopt;
-  const ViewEvidence& view = *apart.view;
+bool misses(const PartThere& part) { return part.q == 0; }
+
+std::optional<Solved> solve_view(const Apart& apart) {
+  if (!apart.known() || !apart.fixed()) return std::nullopt;
+  const ViewEvidence& view = apart.view();
   const SamplingPair& pair = *view.pair;
-  const Maps& maps = apart.maps;
-  const std::vector<Equation>& equations = apart.equations;
+  const Maps& maps = apart.maps();
+  const std::vector<Equation>& equations = apart.equations();
   Solved solved;
-  solved.parts = apart.parts;
+  solved.parts = apart.parts();
   const std::size_t parts = solved.parts.count();
   const double tolerance = tolerance_of_parts(pair);
   solved.a = coefficients(equations, parts, tolerance);
@@ -202,7 +147,7 @@ std::optional<Solved> solve_view(const PartExplanations::Apart& apart) {
     if (holds(e, solved.a, tolerance)) continue;
     // A search misses what numbers next to 0 lead to, which is little.
     constexpr double kLittle = 5e-3;
-    const bool lacks_a_part = std::find(e.q.begin(), e.q.end(), 0.0) != e.q.end();
+    const bool lacks_a_part = std::any_of(e.parts.begin(), e.parts.end(), misses);
     const double off = residual(e, solved.a);
     if (lacks_a_part && std::abs(off) < kLittle) continue;
     (off < 0 && lacks_a_part ? beyond : missed) += 1;
@@ -210,7 +155,8 @@ std::optional<Solved> solve_view(const PartExplanations::Apart& apart) {
   constexpr double kMostBeyond = 0.4;
   if (missed > kMissed * tested || beyond > kMostBeyond * tested) return std::nullopt;
   const auto overlaps = std::count_if(equations.begin(), equations.end(), [](const Equation& e) {
-    return std::count(e.q.begin(), e.q.end(), 0.0) + 1 < static_cast<std::ptrdiff_t>(e.q.size());
+    return std::count_if(e.parts.begin(), e.parts.end(), misses) + 1 <
+           static_cast<std::ptrdiff_t>(e.parts.size());
   });
   solved.apart = 2 * static_cast<std::size_t>(overlaps) < equations.size();
   solved.pieces = beyond > 2 * kMissed * tested;
@@ -235,15 +181,31 @@ std::string listed(const std::vector<double>& numbers) {
 PartExplanations::PartExplanations(const ReportEvidence& evidence) : evidence_(evidence) {}
 PartExplanations::~PartExplanations() = default;
 
-const std::vector<std::unique_ptr<PartExplanations::Apart>>& PartExplanations::views() {
+const std::vector<std::unique_ptr<Apart>>& PartExplanations::views() {
   if (looked_) return views_;
   looked_ = true;
-  for (const ViewEvidence& v : evidence_.views) {
-    if (!v.failed || !v.mass || views_.size() == kViews) continue;
-    views_.push_back(std::make_unique<Apart>(v));
-    if (!views_.back()->known()) break;
+  // What passes says where a fault does not show, which tells a constant from a function of wo.
+  for (const bool failed : {true, false}) {
+    for (const ViewEvidence& v : evidence_.views) {
+      if (v.failed != failed || !v.mass || views_.size() == kViews) continue;
+      views_.push_back(std::make_unique<Apart>(v));
+      if (!views_.back()->known()) return views_;
+    }
   }
   return views_;
+}
+
+std::size_t PartExplanations::views_known() {
+  return static_cast<std::size_t>(std::count_if(views().begin(), views().end(),
+                                                [](const auto& apart) { return apart->known(); }));
+}
+
+Observations PartExplanations::with_exact(const Observations& density) {
+  std::vector<ExactOfView> exact;
+  for (const auto& apart : views()) {
+    if (apart->known()) exact.push_back({&apart->view(), apart->densities()});
+  }
+  return exact.empty() ? density : density.with_points(exact, kMissed);
 }
 
 bool PartExplanations::contradict(const Explanation& e) {
@@ -251,15 +213,13 @@ bool PartExplanations::contradict(const Explanation& e) {
   constexpr double kFitted = 0.03;
   for (const auto& apart : views()) {
     if (!apart->known()) continue;
-    const auto at = static_cast<std::size_t>(apart->view - evidence_.views.data());
-    const double tolerance =
-        e.numbers[at].empty() ? tolerance_of_parts(*apart->view->pair) : kFitted;
+    const ViewEvidence& view = apart->view();
+    const auto at = static_cast<std::size_t>(&view - evidence_.views.data());
+    const double tolerance = e.numbers[at].empty() ? tolerance_of_parts(*view.pair) : kFitted;
     double tested = 0, off = 0;
-    for (const Equation& q : apart->equations) {
-      double density = 0;
-      for (std::size_t i = 0; i < q.q.size(); ++i)
-        density += apart->parts.share(i) * q.q[i] * q.pdf;
-      const Place place{apart->view, apart->view->wo.value_or(Vec3{}), q.x, q.pdf};
+    for (const Equation& q : apart->equations()) {
+      const double density = q.sum() * q.pdf;
+      const Place place{&view, view.wo.value_or(Vec3{}), q.x, q.pdf};
       const double predicted = e.hypothesis->prediction(place, e.numbers[at]);
       if (predicted == kNothingSaid) continue;
       ++tested;
@@ -285,6 +245,25 @@ bool steady(const std::vector<Solved>& views, double tolerance) {
   return true;
 }
 
+/// One part's density with π too often or not at all, the others being right: no probability.
+std::optional<Finding> lone_constant(const Solved& solved) {
+  constexpr double kKnown = 2e-3;
+  std::optional<std::size_t> off;
+  for (std::size_t i = 0; i < solved.a.size(); ++i) {
+    if (std::abs(solved.a[i] - solved.parts.share(i)) < kKnown) continue;
+    if (off) return std::nullopt;
+    off = i;
+  }
+  if (!off || !(solved.a[*off] > 0)) return std::nullopt;
+  const double share = solved.parts.share(*off);
+  const std::string c = usual_constant(share / solved.a[*off], kKnown);
+  if (c.find("π") == std::string::npos) return std::nullopt;
+  return Finding{CauseKind::constant,
+                 "constant factor " + c +
+                     " missing from pdf() of the part that is chosen with probability " +
+                     listed({share})};
+}
+
 }  // namespace
 
 std::optional<Finding> PartExplanations::by_parts(bool only_steady) {
@@ -292,9 +271,10 @@ std::optional<Finding> PartExplanations::by_parts(bool only_steady) {
   std::vector<Solved> all;
   bool complete = true;
   for (const auto& apart : views()) {
-    const ViewEvidence& v = *apart->view;
+    const ViewEvidence& v = apart->view();
     const auto solved = solve_view(*apart);
-    if (!solved) return std::nullopt;
+    if (!solved && v.failed) return std::nullopt;
+    if (!solved) continue;
     all.push_back(*solved);
     if (!solved->off) continue;
     constexpr double kKnown = 0.02;
@@ -303,9 +283,8 @@ std::optional<Finding> PartExplanations::by_parts(bool only_steady) {
     if (!shown) shown = solved;
   }
   if (!shown) return std::nullopt;
-  if (only_steady && !steady(all, 20 * tolerance_of_parts(*evidence_.views.front().pair))) {
-    return std::nullopt;
-  }
+  steady_ = steady(all, 20 * tolerance_of_parts(*evidence_.views.front().pair));
+  if (only_steady && !steady_) return std::nullopt;
   std::vector<double> shares;
   for (std::size_t i = 0; i < shown->parts.count(); ++i) shares.push_back(shown->parts.share(i));
   const std::string chosen = "a random number chooses one of " + number(double(shares.size())) +
@@ -327,6 +306,7 @@ std::optional<Finding> PartExplanations::by_parts(bool only_steady) {
     }
   }
   if (complete) {
+    if (const auto f = lone_constant(*shown)) return f;
     return Finding{
         shown->apart && !has_wo(view) ? CauseKind::choice_probability : CauseKind::lobe_probability,
         chosen + ", but pdf() weighs their densities by " + listed(shown->a)};
@@ -369,12 +349,12 @@ std::optional<Finding> explain_by_branches(const ReportEvidence& evidence) {
       const auto s = map.map()(map.draw(random));
       if (!has_density(s)) continue;
       const double pdf = pair.pdf(s->x);
-      const auto densities = map.densities(s->x);
-      if (!densities || densities->empty()) continue;
+      const auto ways = map.ways(s->x);
+      if (!ways || ways->empty()) continue;
       ++tested;
-      several += densities->size() > 1 ? 1 : 0;
-      matching += std::any_of(densities->begin(), densities->end(), [&](const DensityAt& d) {
-        return std::abs(d.value / pdf - 1) <= tolerance + 4 * d.relative_error;
+      several += ways->size() > 1 ? 1 : 0;
+      matching += std::any_of(ways->begin(), ways->end(), [&](const WayThere& w) {
+        return std::abs(w.density.value / pdf - 1) <= tolerance + 4 * w.density.relative_error;
       });
     }
   }

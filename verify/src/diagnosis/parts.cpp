@@ -118,6 +118,18 @@ Parts parts_of(const SamplingPair& pair) {
   return best.count() < 2 && far_too_many ? Parts{} : best;
 }
 
+std::optional<std::vector<WayThere>> ways_to(const BranchSearch& search, const Map& map,
+                                             const SamplingPair& pair, const Vec3& x,
+                                             std::optional<Uniforms> known) {
+  std::vector<WayThere> all;
+  for (const Uniforms& u : search.preimages(x, known)) {
+    const auto d = density_by_differences(map, u, pair.domain.dimension(), pair.epsilon);
+    if (!d || !(d->relative_error <= tolerance_of_parts(pair) / 4)) return std::nullopt;
+    all.push_back({*d, u});
+  }
+  return all;
+}
+
 bool choice_is_used_again(const SamplingPair& pair, const Parts& parts) {
   if (parts.borders.empty() && can_be_taken_apart(pair)) return true;  // texels, far too many
   for (std::size_t i = 0; parts.count() > 1 && i < parts.count(); ++i) {
@@ -143,16 +155,6 @@ Uniforms PartMap::draw(Random& random) const {
   Uniforms u{};
   for (std::size_t d = 0; d < dimension(); ++d) u[d] = random.uniform();
   return u;
-}
-
-std::optional<std::vector<DensityAt>> PartMap::densities(const Vec3& x) const {
-  std::vector<DensityAt> all;
-  for (const Uniforms& u : search_->preimages(x)) {
-    const auto d = density_by_differences(map_, u, pair_.domain.dimension(), pair_.epsilon);
-    if (!d || !(d->relative_error <= tolerance_of_parts(pair_) / 4)) return std::nullopt;
-    all.push_back(*d);
-  }
-  return all;
 }
 
 double PartMap::accepted() const {

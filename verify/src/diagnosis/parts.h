@@ -30,6 +30,19 @@ bool can_be_taken_apart(const SamplingPair& pair);
 /// What densities by differences and their sums are known to.
 double tolerance_of_parts(const SamplingPair& pair);
 
+/// A density at a point that certain numbers of a part's map bring.
+struct WayThere {
+  DensityAt density;
+  Uniforms u{};
+};
+
+/// Density by differences of every way of a map to a point; nullopt where one of them is not known.
+///
+/// @param known  numbers that lead there, if any are
+std::optional<std::vector<WayThere>> ways_to(const BranchSearch& search, const Map& map,
+                                             const SamplingPair& pair, const Vec3& x,
+                                             std::optional<Uniforms> known = {});
+
 /// A part's map from its own numbers in [0, 1), as many as the domain has dimensions.
 class PartMap {
  public:
@@ -45,9 +58,11 @@ class PartMap {
 
   Uniforms draw(Random& random) const;
 
-  /// Densities at a point that the numbers that lead to it bring, one each; nullopt where one of
-  /// them is not known.
-  std::optional<std::vector<DensityAt>> densities(const Vec3& x) const;
+  /// Of all numbers of the part that lead to a point.
+  std::optional<std::vector<WayThere>> ways(const Vec3& x,
+                                            std::optional<Uniforms> known = {}) const {
+    return ways_to(*search_, map_, pair_, x, known);
+  }
 
   /// Share of the part's numbers that are not rejected.
   double accepted() const;

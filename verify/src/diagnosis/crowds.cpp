@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "diagnosis/ask.h"
+#include "diagnosis/direct.h"
+#include "text.h"
+
+namespace plumbline::verify {
+
+namespace {
+
+/// Samples between two heights that hold far more than the heights beside them.
+struct Crowd {
+  std::size_t from = 0, to = 0;  ///< of the samples by height
+  double height = 0;
+};
+
+constexpr double kBeside = 8;  // widths on either side that are looked at
+
+/// The fullest window of a width, if nearly nothing is beside it.
+std::optional<Crowd> crowd_of(const std::vector<SampleRecord>& by_height, double width) {
+  constexpr double kLeast = 0.004, kAround = 0.12;
+  const auto height = [&by_height](std::size_t i) { return by_height[i].x[2]; };
+  Crowd best;
+  for (std::size_t from = 0, to = 0; from < by_height.size(); ++from) {
+    while (to < by_height.size() && height(to) <= height(from) + width) ++to;
+    if (to - from > best.to - best.from) best = {from, to, height(from)};
+  }
+  const auto inside = static_cast<double>(best.to - best.from);
+  if (inside < kLeast * static_cast<double>(by_height.size())) return std::nullopt;
+  std::size_t low = best.from, high = best.to;
+  while (low > 0 && height(low - 1) > best.height - kBeside * width) --low;
+  while (high < by_height.size() && height(high) < best.height + (1 + kBeside) * width) ++high;
+  const double around = static_cast<double>(high - low) - inside;
+  if (around > kAround * inside) return std::nullopt;
+  return best;
+}
+
+Vec3 at_height(const Vec3& x, double z) {
+  const double before = std::hypot(x[0], x[1]), after = std::sqrt(std::max(0.0, 1 - z * z));
+  return {x[0] * after / before, x[1] * after / before, z};
+}
+
+/// The pdf knows nothing of a crowd: beside it, it is as dense.
+bool is_unknown_to_pdf(const ViewEvidence& view, const std::vector<SampleRecord>& by_height,
+                       const Crowd& crowd, double width) {
+  constexpr double kAlike = 3;
+  double alike = 0, tested = 0;
+  const std::size_t step = std::max<std::size_t>(1, (crowd.to - crowd.from) / 50);
+  for (std::size_t i = crowd.from; i < crowd.to; i += step) {
+    const Vec3& x = by_height[i].x;
+    if (!(std::hypot(x[0], x[1]) > 0)) continue;
+    const double here = pdf_at(view, x);
+    const double above = pdf_at(view, at_height(x, x[2] + kBeside / 2 * width));
+    ++tested;
+    alike += here < kAlike * above ? 1 : 0;
+  }
+  return tested > 10 && alike > 0.9 * tested;
+}
+
+}  // namespace
+
+std::optional<Finding> find_samples_near_a_line(const ReportEvidence& evidence) {
+  constexpr int kSamples = 10'000;
+  constexpr double kHorizon = 0.05;
+  for (const ViewEvidence* v : views_to_ask(evidence)) {
+    if (!v->failed || !has_wo(*v) || !v->pair->domain.directions()) continue;
+    std::vector<SampleRecord> samples = draw_samples(*v, kSamples);
+    std::erase_if(samples, [](const SampleRecord& s) { return s.mass > 0; });
+    std::sort(samples.begin(), samples.end(),
+              [](const SampleRecord& a, const SampleRecord& b) { return a.x[2] < b.x[2]; });
+    for (const double width : {1e-6, 1e-5, 1e-4, 5e-4}) {
+      const auto crowd = crowd_of(samples, width);
+      // Around the pole all heights are alike, and a lobe lies there.
+      constexpr double kFarFromPole = 0.5;
+      if (!crowd || std::abs(crowd->height) > kFarFromPole ||
+          !is_unknown_to_pdf(*v, samples, *crowd, width))
+        continue;
+      const double share =
+          static_cast<double>(crowd->to - crowd->from) / static_cast<double>(samples.size());
+      const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
+      if (std::abs(crowd->height) < kHorizon) {
+        return Finding{CauseKind::not_rejected,
+                       some + " lie within " + number(width) + " of the height " +
+                           number(crowd->height) +
+                           ", where pdf() is as it is above: what falls below the horizon is "
+                           "lifted to it, not rejected"};
+      }
+      return Finding{CauseKind::on_a_line, some + " lie within " + number(width) +
+                                               " of the height " + number(crowd->height) +
+                                               ", where pdf() is as it is above: a clamp?"};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Finding> find_negative_density(const ReportEvidence& evidence) {
+  constexpr int kPerSide = 48;
+  constexpr double kGoodPart = 2e-3;
+  for (const ViewEvidence* v : views_to_ask(evidence)) {
+    if (!v->failed || v->pair->domain.dimension() == 0) continue;
+    const Chart& chart = v->pair->domain.chart();
+    double negative = 0, least = 0, most = 0;
+    for (int i = 0; i < kPerSide * kPerSide; ++i) {
+      const double pdf = pdf_at(*v, chart.from_square({(i % kPerSide + 0.5) / kPerSide,
+                                                       (i / kPerSide + 0.5) / kPerSide}));
+      if (!std::isfinite(pdf)) continue;
+      negative += pdf < 0 ? 1 : 0;
+      least = std::min(least, pdf);
+      most = std::max(most, pdf);
+    }
+    constexpr double kRounding = 1e-6;
+    if (negative > kGoodPart * kPerSide * kPerSide && -least > kRounding * most) {
+      return Finding{CauseKind::not_finite,
+                     "pdf() is negative, down to " + number(least) + ", in " +
+                         number(std::round(1e3 * negative / (kPerSide * kPerSide)) / 10) +
+                         " % of the domain"};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace plumbline::verify
