@@ -26,7 +26,8 @@ double masking(const Roughness& roughness, const Vec3& w) {
 /// Where a normal sends the light.
 using Scatter = std::function<std::optional<Vec3>(const Vec3& normal, double cosine)>;
 
-/// Where along a turn a condition begins or ceases to hold, after which nothing is smooth; at both ends too.
+/// Where along a turn a condition begins or ceases to hold, after which nothing is smooth; at both
+/// ends too.
 template <class Condition>
 std::vector<double> borders_along_turn(const Condition& holds) {
   constexpr int kSteps = 48, kHalvings = 30;

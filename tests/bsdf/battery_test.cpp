@@ -65,7 +65,8 @@ verify::BsdfOptions options_for(const Example& example, const Look& look,
   options.back = look.back;
   options.reciprocal = look.front && look.back;  // between all directions, once
   options.contract.points = nightly() ? 10'000 : 1'000;
-  if (example.name == "GgxConductor/alpha 1e-4, 1") {  // a ridge, curved across the chart of directions
+  if (example.name ==
+      "GgxConductor/alpha 1e-4, 1") {  // a ridge, curved across the chart of directions
     options.contract.finest_bins = 16384;
     options.contract.mass_tolerance.reset();
   }

@@ -18,9 +18,9 @@ using Results = verify::Report;
 /// What a battery may spend.
 enum class Effort {
   user,  ///< as the library's options are by default
-  gate   ///< of hundreds of batteries: masses add up within 2e-3; of correct code a sixteenth of the
-         ///< bins, and samples until four times the deviation is excluded; of a twin, which has to
-         ///< be found, a fourth of the bins and of the evaluations, and half that deviation
+  gate  ///< of hundreds of batteries: masses add up within 2e-3; of correct code a sixteenth of the
+        ///< bins, and samples until four times the deviation is excluded; of a twin, which has to
+        ///< be found, a fourth of the bins and of the evaluations, and half that deviation
 };
 
 /// One subject with its parameters, correct or with one fault put in.

@@ -227,9 +227,8 @@ TEST(KnownAnswerWithCounts, OfZeroIsTheOtherTechniqueAlone) {
     Way way;
     way.path.bsdf_samples = bsdf;
     way.path.light_samples = light;
-    const auto options =
-        mean_options("sphere_light/" + way.name(), make_oracle(known)->image_mean().value,
-                     way.path.strategy);
+    const auto options = mean_options("sphere_light/" + way.name(),
+                                      make_oracle(known)->image_mean().value, way.path.strategy);
     expect_verdict(check_mean(options, loaded.samples(way, options.seed)));
   }
 }

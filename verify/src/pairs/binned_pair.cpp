@@ -18,8 +18,8 @@ constexpr double kStrictMassError = 2.5e-5;
 // Of a tolerance that is stated: a rejected share that has to be counted needs the most of it.
 constexpr double kMassErrorPerTolerance = 0.25;
 // Of the deviation δ that a chi-square pass excludes, root mean square over 64 bins. Their masses
-// have a standard deviation of 0.008 δ/3.3 together, 0.0003 δ each, a fiftieth of δ of a bin's 1/64.
-// In 4,096 bins and 10⁶ samples it is half a count, where chance is 16.
+// have a standard deviation of 0.008 δ/3.3 together, 0.0003 δ each, a fiftieth of δ of a bin's
+// 1/64. In 4,096 bins and 10⁶ samples it is half a count, where chance is 16.
 constexpr double kMassErrorPerDeviation = 0.008;
 // What is good enough where that is out of reach, at most a quarter of the promise that is made
 // then.

@@ -265,8 +265,7 @@ class Integrator {
     // The few nodes of a single bin may miss a jump that those of all bins together show.
     for (const TreeCell& cell : cells_) {
       if (cell.halves != 0) continue;
-      const double expected = cell.key / kHope;
-      result_.variance[cell.bin] += std::max(0.0, expected * expected - cell.measured);
+      result_.variance[cell.bin] += std::max(0.0, std::pow(cell.key / kHope, 2) - cell.measured);
     }
     result_.finite = finite_;
     result_.unseen = std::log(1 / kPassLevel) / static_cast<double>(q_.spread);

@@ -23,9 +23,9 @@ std::uint64_t check_seed(std::string_view subject);
 /// Whether the nightly configuration asks for full grids (PLUMBLINE_NIGHTLY=1).
 bool nightly();
 
-/// Options of the contract's checks, seeded for the subject. At night as users have them; in the gate
-/// a quarter of the bins, samples until twice the deviation is excluded, and masses that add up to
-/// 1 within 4e-4.
+/// Options of the contract's checks, seeded for the subject. At night as users have them; in the
+/// gate a quarter of the bins, samples until twice the deviation is excluded, and masses that add
+/// up to 1 within 4e-4.
 verify::ContractOptions contract_options(std::string_view subject);
 
 /// The one command that repeats the running test with this run's seed; empty outside a test.
