@@ -104,8 +104,9 @@ std::optional<Finding> find_negative_density(const ReportEvidence& evidence) {
     const Chart& chart = v->pair->domain.chart();
     double negative = 0, least = 0, most = 0;
     for (int i = 0; i < kPerSide * kPerSide; ++i) {
-      const double pdf = pdf_at(*v, chart.from_square({(i % kPerSide + 0.5) / kPerSide,
-                                                       (i / kPerSide + 0.5) / kPerSide}));
+      const int column = i % kPerSide, row = i / kPerSide;
+      const Point2 p{(column + 0.5) / kPerSide, (row + 0.5) / kPerSide};
+      const double pdf = pdf_at(*v, chart.from_square(p));
       if (!std::isfinite(pdf)) continue;
       negative += pdf < 0 ? 1 : 0;
       least = std::min(least, pdf);
