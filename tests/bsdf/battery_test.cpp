@@ -65,8 +65,8 @@ verify::BsdfOptions options_for(const Example& example, const Look& look,
   options.back = look.back;
   options.reciprocal = look.front && look.back;  // between all directions, once
   options.contract.points = nightly() ? 10'000 : 1'000;
-  if (example.name ==
-      "GgxConductor/alpha 1e-4, 1") {  // a ridge, curved across the chart of directions
+  // A ridge, curved across the chart of directions.
+  if (example.name == "GgxConductor/alpha 1e-4, 1") {
     options.contract.finest_bins = 16384;
     options.contract.mass_tolerance.reset();
     // With 4 million the masses and the rejected share are known to 9e-4 together, of 1e-3.
