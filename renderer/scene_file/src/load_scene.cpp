@@ -1,16 +1,149 @@
 #include <plumbline/renderer/scene_file/load_scene.h>
 
-#include <string>
-#include <utility>
-#include <vector>
+#include <new>
 
-#include <plumbline/renderer/core/errors.h>
-
-#include "document.h"
 #include "parts.h"
 
 namespace plumbline::renderer {
 namespace {
+
+/// Bytes of a scene file, and of the parameters put into one.
+constexpr std::size_t kMaxSceneBytes = std::size_t{16} << 20;
+
+/// Of the names of parameters.
+constexpr std::string_view kNameCharacters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
+
+void check_kind(Node node) {
+  if (node.type() == pugi::node_doctype) {
+    refuse(node,
+           "<!DOCTYPE> is refused: a scene file declares no entities and reads no other document");
+  }
+  if (node.type() == pugi::node_pi) {
+    refuse(node, "processing instruction {} is not supported", in_quotes(node.name()));
+  }
+  if (node.type() != pugi::node_element) {
+    refuse(node, "text {} outside of an attribute", in_quotes(node.value()));
+  }
+}
+
+void check_attributes(Node node) {
+  constexpr int kMaxAttributes = 32;
+  int count = 0;
+  for (const pugi::xml_attribute attribute : node.attributes()) {
+    if (++count > kMaxAttributes) {
+      refuse(node, "an element has more than {} attributes", kMaxAttributes);
+    }
+    if (node.attribute(attribute.name()) != attribute) {  // which is the first of that name
+      refuse(node, "attribute {} is given twice", in_quotes(attribute.name()));
+    }
+  }
+}
+
+void check_children(Node parent, int depth) {
+  constexpr int kMaxDepth = 32;
+  for (const Node node : parent.children()) {
+    check_kind(node);
+    if (depth == 0 && node.previous_sibling()) refuse(node, "a file holds one <scene> only");
+    if (depth == kMaxDepth) refuse(node, "elements are nested deeper than {}", kMaxDepth);
+    check_attributes(node);
+    check_children(node, depth + 1);
+  }
+}
+
+/// A well-formed XML file of bounded depth, without anything that reaches outside it (document
+/// types, entities, processing instructions).
+void parse_xml(std::string_view text, pugi::xml_document& xml) {
+  // Document types and processing instructions are kept only to be refused with their line.
+  // UTF-8 is stated: a guessed encoding would convert the text and shift all offsets.
+  constexpr unsigned kOptions =
+      pugi::parse_default | pugi::parse_doctype | pugi::parse_pi | pugi::parse_fragment;
+  const auto parsed = xml.load_buffer(text.data(), text.size(), kOptions, pugi::encoding_utf8);
+  if (parsed.status == pugi::status_out_of_memory) throw std::bad_alloc();
+  if (!parsed) refuse(parsed.offset, "is not well-formed XML: {}", parsed.description());
+  check_children(xml, 0);
+  if (!xml.document_element()) refuse(xml, "holds no XML element; a <scene> was expected");
+}
+
+/// The text with every $name replaced. The values put in are not looked at again.
+std::string with_parameters(Node node, std::string_view text, Reading& in) {
+  const std::map<std::string, std::string>& parameters = in.scene.parameters;
+  std::size_t dollar = text.find('$');
+  std::string result(text.substr(0, dollar));
+  while (dollar != std::string_view::npos) {
+    text.remove_prefix(dollar + 1);
+    const std::string name(text.substr(0, text.find_first_not_of(kNameCharacters)));
+    if (name.empty()) fail(node, "a $ must be followed by a parameter's name");
+    const auto found = parameters.find(name);
+    if (found == parameters.end()) {
+      refuse_name(node,
+                  fmt::format("{}: no <default> before this line declares ${}", label(node), name),
+                  name, names_of(parameters));
+    }
+    in.overrides.erase(name);
+    in.put_in += found->second.size();
+    if (in.put_in > kMaxSceneBytes) {  // parameters of parameters double with every line
+      fail(node, "parameters have put in more than {} bytes up to here", kMaxSceneBytes);
+    }
+    text.remove_prefix(name.size());
+    dollar = text.find('$');
+    result.append(found->second).append(text.substr(0, dollar));
+  }
+  return result;
+}
+
+void put_parameters_in(Node node, Reading& in) {
+  for (pugi::xml_attribute attribute : node.attributes()) {
+    const std::string_view text = attribute.value();
+    if (text.find('$') == std::string_view::npos) continue;
+    if (!attribute.set_value(with_parameters(node, text, in).c_str())) throw std::bad_alloc();
+  }
+}
+
+/// Reads a <default>, which holds from there on.
+void read_default(Node node, Reading& in) {
+  allow_only_attributes(node, {"name", "value"});
+  const std::string name = attribute(node, "name");
+  if (name.empty() || name.find_first_not_of(kNameCharacters) != std::string::npos ||
+      (name[0] >= '0' && name[0] <= '9')) {
+    refuse(node, "{} is no name for a parameter: letters, digits and _, not starting with a digit",
+           in_quotes(name));
+  }
+  put_parameters_in(node, in);
+  const auto [parameter, is_new] = in.scene.parameters.emplace(name, attribute(node, "value"));
+  if (!is_new) refuse(node, "parameter {} is declared twice", in_quotes(name));
+  const auto override = in.overrides.find(name);
+  if (override != in.overrides.end()) parameter->second = override->second;
+}
+
+void check_overrides(const Reading& in) {
+  if (in.overrides.empty()) return;
+  const std::string& name = in.overrides.begin()->first;
+  const std::map<std::string, std::string>& parameters = in.scene.parameters;
+  if (parameters.empty()) {
+    refuse(kNowhere, "has no <default> parameters, so {} cannot be set", in_quotes(name));
+  }
+  if (parameters.count(name) == 0) {
+    refuse_name({}, fmt::format("no parameter {}", in_quotes(name)), name, names_of(parameters));
+  }
+  refuse(kNowhere, "parameter {} is set, but nothing in the file uses it", in_quotes(name));
+}
+
+/// Puts parameters into an element and those in it, and registers their ids.
+void prepare(Node node, Reading& in) {
+  put_parameters_in(node, in);
+  if (node.attribute("id") && node.name() != std::string_view("ref")) {
+    const std::string id = attribute(node, "id");
+    if (id.empty()) refuse(node, "{} has an empty id", label(node));
+    const auto [place, added] = in.ids.emplace(id, node);
+    const Node first = place->second;
+    if (!added) {
+      refuse(node, "id {} is taken by the {} on line {}", in_quotes(id), tag_of(first),
+             line_at(in.text, first.offset_debug()));
+    }
+  }
+  for (const Node child : node.children()) prepare(child, in);
+}
 
 void read_shared_bsdf(Node node, Reading& in) {
   if (!node.attribute("id")) {
@@ -28,7 +161,7 @@ void read_emitter(Node node, Reading& in) {
 
 /// What a <scene> may hold.
 const Named<void (*)(Node, Reading&)> kElements = {
-    {"default", [](Node, Reading&) {}},  // by Document::prepare
+    {"default", read_default},
     {"integrator", [](Node node, Reading& in) { read_object(node, kIntegratorTypes, in); }},
     {"sensor", [](Node node, Reading& in) { read_object(node, kSensorTypes, in); }},
     {"bsdf", read_shared_bsdf},
@@ -55,24 +188,25 @@ void check_root(Node root) {
   }
 }
 
-void read_scene(Document& document, Reading& in) {
-  const Node root = document.root();
+void read_scene(Reading& in) {
+  pugi::xml_document xml;
+  parse_xml(in.text, xml);
+  const Node root = xml.document_element();
   check_root(root);
   for (const Node node : root.children()) {
     const auto message = fmt::format("<scene> may not hold {}", tag_of(node));
     const auto read = look_up(kElements, node.name(), node, message);
-    document.prepare(node);
+    if (read != read_default) prepare(node, in);
     read(node, in);
   }
   SceneDescription& scene = in.scene;
   for (const auto& [shape, ref] : in.references) scene.shapes[shape].bsdf = resolve_bsdf(ref, in);
   scene.bsdfs = in.bsdfs;
-  scene.parameters = document.parameters();
   if (!root.child("sensor")) refuse(root, "the scene has no <sensor>");
   if (scene.shapes.empty() && !scene.environment && !scene.environment_map && !scene.sun) {
     refuse(root, "the scene has neither a <shape> nor an <emitter>");
   }
-  document.check_overrides();
+  check_overrides(in);
 }
 
 }  // namespace
@@ -109,15 +243,12 @@ SceneDescription load_scene(const std::filesystem::path& file,
   if (!wrong.empty()) throw InputError(wrong);
   const std::string text = read_text_file(file, kMaxSceneBytes);
   try {
-    Document document(text, overrides);
-    Reading in{document.ids(), size};
+    Reading in{text, overrides, size};
     in.scene.file = file;
-    read_scene(document, in);
+    read_scene(in);
     return std::move(in.scene);
   } catch (const Refusal& refusal) {
-    const auto at = static_cast<std::size_t>(refusal.offset);
-    const std::string line = refusal.offset < 0 ? "" : fmt::format(":{}", line_at(text, at));
-    throw InputError(fmt::format("{}{}: {}", file.string(), line, refusal.what()));
+    throw refusal.in(file, text);
   }
 }
 

@@ -33,11 +33,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string name_hint(std::string_view name, const std::vector<std::string>& known) {
   if (known.empty()) return {};
   if (name.size() <= kLongestName) {
-    const auto by_distance = [&](const std::string& a, const std::string& b) {
-      return edit_distance(name, a) < edit_distance(name, b);
-    };
-    const std::string& nearest = *std::min_element(known.begin(), known.end(), by_distance);
-    if (edit_distance(name, nearest) <= (name.size() + 1) / 2) {
+    const auto distance = [&](const std::string& other) { return edit_distance(name, other); };
+    const std::string& nearest = *std::ranges::min_element(known, {}, distance);
+    if (distance(nearest) <= (name.size() + 1) / 2) {
       return fmt::format("did you mean \"{}\"?", nearest);
     }
   }

@@ -1,15 +1,7 @@
 #include "object.h"
 
-#include <algorithm>
-#include <string_view>
-
 namespace plumbline::renderer {
 namespace {
-
-template <class Items, class T>
-bool contains(const Items& items, const T& item) {
-  return std::find(items.begin(), items.end(), item) != items.end();
-}
 
 /// Those of Mitsuba's that we do not take count as properties too, for the message.
 bool is_property(Node node) {
@@ -22,21 +14,6 @@ bool is_property(Node node) {
 bool gives(Node child, const PropertyRow& row) {
   return row.parse ? is_property(child) && attribute(child, "name") == row.name
                    : contains(row.tags, child.name());
-}
-
-/// What a property says: its `value`, or what its kind has in place of that.
-std::string text_of(Node property) {
-  const std::string_view tag = property.name();
-  if (tag == "transform") {  // holds operations
-    allow_attributes(property, {"name"});
-    return {};
-  }
-  if (tag == "point" || tag == "vector") {
-    allow_only_attributes(property, {"name", "x", "y", "z", "value"});
-    return vector_text(property, "0");
-  }
-  allow_only_attributes(property, {"name", "value"});
-  return attribute(property, "value");
 }
 
 /// "<bsdf> or <ref>"

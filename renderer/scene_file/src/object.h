@@ -3,12 +3,8 @@
 #include <any>
 #include <functional>
 #include <map>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "node.h"
-#include "transform.h"
+#include "values.h"
 
 /// Objects of a scene file (`<shape>`, `<film>`, …), read by the row of their type: parsing,
 /// checks, messages and the tables of docs/scene_format.md all come from the rows.

@@ -1,13 +1,8 @@
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <plumbline/renderer/assembly/bsdf.h>
 #include <plumbline/renderer/assembly/description.h>
@@ -26,8 +21,11 @@ struct BsdfContext {
 
 /// A scene as far as it has been read.
 struct Reading {
-  const std::map<std::string, Node>& ids;  ///< of the file
-  std::optional<FilmSize> size;            ///< in place of the file's
+  std::string_view text;                         ///< the file
+  std::map<std::string, std::string> overrides;  ///< of parameters, as far as nothing has used them
+  std::optional<FilmSize> size;                  ///< in place of the file's
+  std::size_t put_in = 0;                        ///< by parameters [bytes]
+  std::map<std::string, Node> ids = {};          ///< elements, by the id that only they have
   SceneDescription scene = {};
   std::shared_ptr<BsdfSet> bsdfs = std::make_shared<BsdfSet>();  ///< nested ones before their nests
   std::vector<BsdfContext> contexts = {};                        ///< of each BSDF

@@ -1,9 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <utility>
-#include <variant>
-#include <vector>
 
 #include "parts.h"
 

@@ -1,9 +1,3 @@
-#include <memory>
-#include <string>
-#include <utility>
-#include <variant>
-
-#include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
 
 #include "parts.h"

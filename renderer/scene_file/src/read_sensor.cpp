@@ -1,5 +1,4 @@
 #include <cmath>
-#include <string>
 
 #include "parts.h"
 
@@ -25,13 +24,9 @@ void read_path(const Object& object, Reading& in) {
   in.scene.integrator = {object[kMaxDepth], object[kRrDepth]};
 }
 
-void read_direct(const Object& /*object*/, Reading& in) { in.scene.integrator = {.max_depth = 2}; }
-
 void read_sampler(const Object& object, Reading& in) {
   in.scene.samples_per_pixel = object[kSampleCount];
 }
-
-void read_filter(const Object&, Reading&) {}  // each pixel averages its own square
 
 void read_film(const Object& object, Reading& in) {
   const FilmSize size{object[kWidth], object[kHeight]};
@@ -61,11 +56,8 @@ void read_perspective(const Object& object, Reading& in) {
                  "a camera may be turned and moved, not scaled or sheared");
   object.require(is_in_range(to_world.origin), kToWorld, "the camera is too far away");
   read_object(object[kFilm].front(), kFilmTypes, in);
-  if (object.has(kSampler)) {
-    read_object(object[kSampler].front(), kSamplerTypes, in);
-  } else {
-    in.scene.samples_per_pixel = parse_number<int>(object.node(), kSampleCount.absent);
-  }
+  in.scene.samples_per_pixel = parse_number<int>(object.node(), kSampleCount.absent);
+  for (const Node sampler : object[kSampler]) read_object(sampler, kSamplerTypes, in);
   const double tangent = std::tan(object[kFov] * pi<double>() / 360);
   const double aspect = static_cast<double>(in.size->width) / in.size->height;
   in.scene.camera = {.origin = to_world.origin,
@@ -81,7 +73,7 @@ void read_perspective(const Object& object, Reading& in) {
 
 const Named<ObjectType> kIntegratorTypes = {
     {"path", {{kMaxDepth, kRrDepth}, read_path}},
-    {"direct", {{}, read_direct}},
+    {"direct", {{}, [](const Object&, Reading& in) { in.scene.integrator = {.max_depth = 2}; }}},
 };
 const Named<ObjectType> kSensorTypes = {
     {"perspective", {{kFov, kFovAxis, kToWorld, kFilm, kSampler}, read_perspective}},
@@ -89,7 +81,9 @@ const Named<ObjectType> kSensorTypes = {
 const Named<ObjectType> kFilmTypes = {
     {"hdrfilm", {{kWidth, kHeight, kPixelFormat, kComponentFormat, kFilter}, read_film}},
 };
-const Named<ObjectType> kFilterTypes = {{"box", {{}, read_filter}}};
+const Named<ObjectType> kFilterTypes = {
+    {"box", {{}, [](const Object&, Reading&) {}}},  // each pixel averages its own square
+};
 const Named<ObjectType> kSamplerTypes = {{"independent", {{kSampleCount}, read_sampler}}};
 
 std::string film_size_error(const FilmSize& size) {

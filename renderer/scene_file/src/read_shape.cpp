@@ -1,8 +1,4 @@
-#include <algorithm>
 #include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "parts.h"
 
@@ -94,7 +90,7 @@ bool is_in_range(const Vec3d& point) {
 void read_shape(Node node, Reading& in) {
   in.scene.shapes.emplace_back();
   const Object object = read_object(node, kShapeTypes, in);
-  if (object.has(kEmitter)) read_object(object[kEmitter].front(), kAreaEmitterTypes, in);
+  for (const Node emitter : object[kEmitter]) read_object(emitter, kAreaEmitterTypes, in);
   ShapeDescription& shape = in.scene.shapes.back();
   if (!object.has(kBsdf)) {
     if (!in.default_bsdf) in.default_bsdf = in.add_bsdf(Lambertian{{0.5f, 0.5f, 0.5f}});
