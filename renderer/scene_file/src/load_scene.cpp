@@ -101,7 +101,7 @@ void put_parameters_in(Node node, Reading& in) {
 }
 
 /// Reads a <default>, which holds from there on.
-void read_default(Node node, Reading& in) {
+void read_parameter(Node node, Reading& in) {
   allow_only_attributes(node, {"name", "value"});
   const std::string name = attribute(node, "name");
   if (name.empty() || name.find_first_not_of(kNameCharacters) != std::string::npos ||
@@ -161,7 +161,7 @@ void read_emitter(Node node, Reading& in) {
 
 /// What a <scene> may hold.
 const Named<void (*)(Node, Reading&)> kElements = {
-    {"default", read_default},
+    {"default", read_parameter},
     {"integrator", [](Node node, Reading& in) { read_object(node, kIntegratorTypes, in); }},
     {"sensor", [](Node node, Reading& in) { read_object(node, kSensorTypes, in); }},
     {"bsdf", read_shared_bsdf},
@@ -196,7 +196,7 @@ void read_scene(Reading& in) {
   for (const Node node : root.children()) {
     const auto message = fmt::format("<scene> may not hold {}", tag_of(node));
     const auto read = look_up(kElements, node.name(), node, message);
-    if (read != read_default) prepare(node, in);
+    if (read != read_parameter) prepare(node, in);
     read(node, in);
   }
   SceneDescription& scene = in.scene;

@@ -93,4 +93,9 @@ Object read_object(Node node, const Named<ObjectType>& types, Reading& in) {
   return object;
 }
 
+void read_default(const Nested& objects, const Named<ObjectType>& types, Reading& in) {
+  const ObjectType& type = look_up(types, objects.absent, {}, "no type");
+  type.read(Object({}, type), in);
+}
+
 }  // namespace plumbline::renderer

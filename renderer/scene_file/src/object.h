@@ -107,4 +107,7 @@ class Object {
 /// @throws Refusal for a type that is none of these
 Object read_object(Node node, const Named<ObjectType>& types, Reading& in);
 
+/// Reads the default of nested objects: one of that type without a property.
+void read_default(const Nested& objects, const Named<ObjectType>& types, Reading& in);
+
 }  // namespace plumbline::renderer

@@ -56,7 +56,7 @@ void read_perspective(const Object& object, Reading& in) {
                  "a camera may be turned and moved, not scaled or sheared");
   object.require(is_in_range(to_world.origin), kToWorld, "the camera is too far away");
   read_object(object[kFilm].front(), kFilmTypes, in);
-  in.scene.samples_per_pixel = parse_number<int>(object.node(), kSampleCount.absent);
+  if (!object.has(kSampler)) read_default(kSampler, kSamplerTypes, in);
   for (const Node sampler : object[kSampler]) read_object(sampler, kSamplerTypes, in);
   const double tangent = std::tan(object[kFov] * pi<double>() / 360);
   const double aspect = static_cast<double>(in.size->width) / in.size->height;

@@ -93,7 +93,10 @@ void read_shape(Node node, Reading& in) {
   for (const Node emitter : object[kEmitter]) read_object(emitter, kAreaEmitterTypes, in);
   ShapeDescription& shape = in.scene.shapes.back();
   if (!object.has(kBsdf)) {
-    if (!in.default_bsdf) in.default_bsdf = in.add_bsdf(Lambertian{{0.5f, 0.5f, 0.5f}});
+    if (!in.default_bsdf) {
+      in.default_bsdf = static_cast<std::uint32_t>(in.bsdfs->size());
+      read_default(kBsdf, kBsdfTypes, in);
+    }
     shape.bsdf = *in.default_bsdf;
   } else if (const Node given = object[kBsdf].front(); given.name() == std::string_view("ref")) {
     in.references.emplace_back(in.scene.shapes.size() - 1, given);
