@@ -16,18 +16,18 @@
 namespace plumbline::bench {
 namespace {
 
-struct Work {
+struct BackendWork {
   int side = 96;
   std::uint32_t samples = 4;  ///< per pixel
   int repetitions = 7;
 };
 
-struct Comparison {
+struct BackendComparison {
   double batched_ns, scalar_ns;  // per path, medians
   Estimate speed;                // of the batches over the plain loop
 };
 
-Comparison compare(const NamedScene& named, const Work& work) {
+BackendComparison compare(const NamedScene& named, const BackendWork& work) {
   const auto description = load_at_size(named.name, work.side, work.side);
   const renderer::Scene scene = renderer::make_scene(description);
   renderer::RenderOptions options;
@@ -54,7 +54,7 @@ Comparison compare(const NamedScene& named, const Work& work) {
 }  // namespace
 
 void measure_backend_speed(reports::ResultLog& log, bool full) {
-  const Work work = full ? Work{128, 8, 21} : Work{};
+  const BackendWork work = full ? BackendWork{128, 8, 21} : BackendWork{};
   reports::Table table;
   table.group = "Ray-replay limit";
   table.title = "Batches of paths against one path after the other";
@@ -64,7 +64,7 @@ void measure_backend_speed(reports::ResultLog& log, bool full) {
       work.side, work.samples, work.repetitions);
   table.columns = {"scene", "batched [ns/path]", "plain loop [ns/path]", "plain / batched"};
   for (const NamedScene& scene : kTracedScenes) {
-    const Comparison c = compare(scene, work);
+    const BackendComparison c = compare(scene, work);
     table.rows.push_back({scene.title, fmt::format("{:.0f}", c.batched_ns),
                           fmt::format("{:.0f}", c.scalar_ns), text_of(c.speed)});
     if (scene.name != std::string("cornell")) continue;

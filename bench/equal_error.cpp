@@ -32,10 +32,10 @@ constexpr Comparison kComparisons[] = {
     {"veach", "Veach's plates", 512, 384, 0.0025, "pbrt-v4: zsobol 0.025, independent 0.078"},
     {"cornell", "Cornell box", 256, 256, 0.0065, "pbrt-v4: independent 0.068, zsobol 0.075"}};
 
-constexpr std::uint32_t kSamples = 64;
+constexpr std::uint32_t kComparedSamples = 64;
 constexpr int kThreads = 2;
 constexpr int kReplicates = 16;
-constexpr std::uint32_t kReferenceSamples = 4 * kSamples;  // in each of two halves
+constexpr std::uint32_t kReferenceSamples = 4 * kComparedSamples;  // in each of two halves
 
 renderer::RenderResult render_once(const Scene& scene, const renderer::PathOptions& path,
                                    std::uint32_t samples, std::uint64_t seed) {
@@ -48,15 +48,15 @@ renderer::RenderResult render_once(const Scene& scene, const renderer::PathOptio
   return render(scene, options);
 }
 
-struct Reference {
+struct ConvergedImage {
   std::vector<double> image;
   double rel_mse = 0;  ///< of itself, from the difference of its halves
 };
 
 /// Two renders with seeds that no replicate has; (a − b)²/4 is an unbiased estimate of the squared
 /// error of their mean.
-Reference render_reference(const Scene& scene, const renderer::PathOptions& path) {
-  Reference reference;
+ConvergedImage render_reference(const Scene& scene, const renderer::PathOptions& path) {
+  ConvergedImage reference;
   reference.image = luminances(render_once(scene, path, kReferenceSamples, 1001).film);
   std::vector<double> off = luminances(render_once(scene, path, kReferenceSamples, 1002).film);
   for (std::size_t i = 0; i < off.size(); ++i) {
@@ -75,11 +75,11 @@ void measure(const Comparison& comparison, reports::ResultLog& log, bool full) {
   const Scene scene = make_scene(description);
   const renderer::PathOptions path{.max_depth = description.integrator.max_depth,
                                    .rr_depth = description.integrator.rr_depth};
-  const Reference reference = render_reference(scene, path);
+  const ConvergedImage reference = render_reference(scene, path);
   std::vector<double> errors, times;
   for (int i = 0; i < kReplicates; ++i) {
     const renderer::RenderResult result =
-        render_once(scene, path, kSamples, static_cast<std::uint64_t>(i) + 1);
+        render_once(scene, path, kComparedSamples, static_cast<std::uint64_t>(i) + 1);
     errors.push_back(rel_mse(luminances(result.film), reference.image) - reference.rel_mse);
     times.push_back(result.seconds * shrink * shrink);
   }
@@ -99,7 +99,7 @@ void measure(const Comparison& comparison, reports::ResultLog& log, bool full) {
       "{}×{}, {} samples per pixel, {} threads{}: relMSE {:.3g} [{:.3g}, {:.3g}] (mean of {} "
       "renders), {:.3g} s [{:.3g}, {:.3g}] (median); the reference's own relMSE, {:.2g}, is "
       "subtracted",
-      description.camera.width, description.camera.height, kSamples, kThreads,
+      description.camera.width, description.camera.height, kComparedSamples, kThreads,
       full ? "" : fmt::format(", time × {}", shrink * shrink), error.value, error.low, error.high,
       kReplicates, time.value, time.low, time.high, reference.rel_mse);
   publish(log, bar);

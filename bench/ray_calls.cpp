@@ -25,7 +25,7 @@ using OccludedState = RTCIntersectContext;
 namespace plumbline::bench {
 namespace {
 
-RayCalls* recording = nullptr;
+RayCalls* recorded_calls = nullptr;
 
 template <class State>
 bool is_coherent(const State* state) {
@@ -50,12 +50,12 @@ void init(IntersectState& intersect, OccludedState& occluded, bool coherent) {
 
 template <class State>
 void note(Query query, const State* state, int width, const int* valid, const void* rays) {
-  if (recording == nullptr) return;
+  if (recorded_calls == nullptr) return;
   std::uint32_t lanes = 0;
   for (int i = 0; i < width; ++i) {
     if (valid == nullptr || valid[i] != 0) lanes |= 1u << i;
   }
-  recording->add(query, is_coherent(state), width, lanes, rays);
+  recorded_calls->add(query, is_coherent(state), width, lanes, rays);
 }
 
 }  // namespace
@@ -219,7 +219,7 @@ RayCalls RayCalls::one_wide() const {
   return result;
 }
 
-RayRecording::RayRecording(RayCalls& calls) { recording = &calls; }
-RayRecording::~RayRecording() { recording = nullptr; }
+RayRecording::RayRecording(RayCalls& calls) { recorded_calls = &calls; }
+RayRecording::~RayRecording() { recorded_calls = nullptr; }
 
 }  // namespace plumbline::bench

@@ -34,13 +34,13 @@ constexpr ReplayedScene kScenes[] = {{"cornell", "Cornell box", 128, 128, 4},
                                      {"displaced_sphere", "1M triangles", 128, 128, 4},
                                      {"many_spheres", "100k spheres", 96, 96, 4}};
 
-struct Shares {
+struct RayShares {
   double rays_per_path, rays_per_call;
   double render_ns, replay_ns;  // per path, medians
   Estimate share, one_wide;     // of the render: as recorded, and one ray per call
 };
 
-Shares measure(const ReplayedScene& replayed, int repetitions) {
+RayShares measure(const ReplayedScene& replayed, int repetitions) {
   const auto description = load_at_size(replayed.name, replayed.width, replayed.height);
   const Scene scene = make_scene(description);
   renderer::RenderOptions options;
@@ -113,7 +113,7 @@ void measure_ray_replay(reports::ResultLog& log, bool full) {
                    "replay / render",
                    "one by one / render"};
   for (const ReplayedScene& scene : kScenes) {
-    const Shares s = measure(scene, repetitions);
+    const RayShares s = measure(scene, repetitions);
     table.rows.push_back({scene.title, fmt::format("{:.2f}", s.rays_per_path),
                           fmt::format("{:.1f}", s.rays_per_call),
                           fmt::format("{:.0f}", s.render_ns), fmt::format("{:.0f}", s.replay_ns),

@@ -31,7 +31,7 @@ double since(Clock::time_point start) {
 }
 
 /// A scene with the work that a point asks of it.
-struct Work {
+struct ScalingWork {
   renderer::SceneDescription scene;
   renderer::RenderOptions options;
   int renders = 3;
@@ -42,9 +42,9 @@ void set_size(renderer::SceneDescription& scene, int width) {
   scene.camera.height = width;
 }
 
-Work work_at(const std::string& axis, std::uint64_t value) {
+ScalingWork work_at(const std::string& axis, std::uint64_t value) {
   const int number = static_cast<int>(value);
-  Work work;
+  ScalingWork work;
   work.options.samples_per_pixel = 4;
   work.options.sampler = renderer::SamplerType::sobol;
   work.options.threads = 1;
@@ -101,7 +101,7 @@ std::string read_all(int file) {
 void measure_scaling_point(const std::string& point) {
   const std::size_t equals = point.find('=');
   if (equals == std::string::npos) throw std::invalid_argument("a point is axis=value");
-  Work work = work_at(point.substr(0, equals), std::stoull(point.substr(equals + 1)));
+  ScalingWork work = work_at(point.substr(0, equals), std::stoull(point.substr(equals + 1)));
   const Clock::time_point start = Clock::now();
   const renderer::Scene scene = renderer::make_scene(work.scene);
   const double build = since(start);

@@ -23,13 +23,13 @@ using renderer::SamplerType;
 using renderer::Scene;
 using renderer::Strategy;
 
-struct Work {
+struct CurveWork {
   int width = 12, height = 12;
   std::uint32_t most_samples = 64;
   std::uint32_t reference_samples = 4096;
 };
 
-constexpr int kReplicates = 16;
+constexpr int kCurveReplicates = 16;
 constexpr std::uint32_t kFewestAllocated = 64;  // samples per pixel that a policy can learn from
 
 /// One way to render a scene, and what it came to at growing numbers of samples.
@@ -52,7 +52,7 @@ reports::SpeedPoint describe(const std::string& scene, const RenderOptions& opti
     }
   }
   point.samples_per_pixel = options.samples_per_pixel;
-  point.replicates = kReplicates;
+  point.replicates = kCurveReplicates;
   return point;
 }
 
@@ -61,14 +61,14 @@ reports::SpeedPoint measure(const std::string& name, const Scene& scene, RenderO
   reports::SpeedPoint point = describe(name, options);
   std::vector<double> errors;
   double rays = 0;
-  for (int i = 0; i < kReplicates; ++i) {
+  for (int i = 0; i < kCurveReplicates; ++i) {
     options.seed = static_cast<std::uint64_t>(i) + 1;
     const double start = thread_seconds();
     const renderer::RenderResult result = render(scene, options);
-    point.seconds += (thread_seconds() - start) / kReplicates;
+    point.seconds += (thread_seconds() - start) / kCurveReplicates;
     errors.push_back(rel_mse(luminances(result.film), reference));
     const renderer::PathCounters& c = result.counters;
-    rays += static_cast<double>(c.camera_rays + c.bounce_rays + c.shadow_rays) / kReplicates;
+    rays += static_cast<double>(c.camera_rays + c.bounce_rays + c.shadow_rays) / kCurveReplicates;
   }
   const Estimate error = mean_with_interval(errors);
   point.rays = static_cast<std::uint64_t>(rays);
@@ -79,7 +79,7 @@ reports::SpeedPoint measure(const std::string& name, const Scene& scene, RenderO
 }
 
 void measure_curve(const std::string& name, const Scene& scene,
-                   const std::vector<double>& reference, const Work& work, Curve& curve) {
+                   const std::vector<double>& reference, const CurveWork& work, Curve& curve) {
   RenderOptions options = curve.options;
   const std::uint32_t fewest = options.allocation ? kFewestAllocated : 1;
   for (std::uint32_t samples = fewest; samples <= work.most_samples; samples *= 4) {
@@ -118,7 +118,7 @@ std::vector<Curve> curves_of(const renderer::SceneDescription& description) {
 }
 
 /// One thread per core, each with curves of its own: their times are CPU times.
-void measure_scene(const std::string& name, const Work& work, reports::ResultLog& log) {
+void measure_scene(const std::string& name, const CurveWork& work, reports::ResultLog& log) {
   const auto description = load_at_size(name, work.width, work.height);
   const Scene scene = make_scene(description);
   const auto reference = reference_luminance(name, description, work.reference_samples);
@@ -147,7 +147,7 @@ void measure_scene(const std::string& name, const Work& work, reports::ResultLog
 
 void measure_speed_against_error(reports::ResultLog& log, bool full) {
   fmt::print("speed against error: relMSE and CPU time of one render\n");
-  Work work;
+  CurveWork work;
   if (full) work = {.most_samples = 1024, .reference_samples = 32768};
   for (const char* name : {"veach", "cornell", "sidewalk", "small_light"}) {
     measure_scene(name, work, log);

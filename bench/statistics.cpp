@@ -5,7 +5,6 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstddef>
-#include <ctime>
 
 namespace plumbline::bench {
 
@@ -31,12 +30,6 @@ Estimate mean_with_interval(const std::vector<double>& values) {
   const double t = boost::math::quantile(boost::math::students_t(n - 1), 0.975);
   const double half = t * std::sqrt(sum_squares / (n - 1) / n);
   return {mean, mean - half, mean + half};
-}
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace plumbline::bench

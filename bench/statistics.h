@@ -16,7 +16,4 @@ Estimate median_with_interval(std::vector<double> values);
 /// Mean with a 95 % interval from Student's t; the mean alone for fewer than two.
 Estimate mean_with_interval(const std::vector<double>& values);
 
-/// CPU time of this thread [s]: a neighbour's load does not enter it.
-double thread_seconds();
-
 }  // namespace plumbline::bench

@@ -15,13 +15,13 @@ namespace {
 
 using renderer::Scene;
 
-struct Work {
+struct ClaimWork {
   int width = 24, height = 18;
   std::uint64_t replicates = 16;  // the fewest that the interval takes
   std::uint32_t samples_per_pixel = 16;
 };
 
-renderer::SceneDescription load(const ClaimScene& scene, const Work& work) {
+renderer::SceneDescription load(const ClaimScene& scene, const ClaimWork& work) {
   auto description = renderer::load_scene(scene_path(scene.name), scene.parameters);
   description.camera.width = work.width;
   description.camera.height = work.height;
@@ -75,7 +75,7 @@ void judge(Replicates& replicates, const std::vector<double>& reference) {
   }
 }
 
-SceneRuns measure_scene(const ClaimScene& claim, const Work& work) {
+SceneRuns measure_scene(const ClaimScene& claim, const ClaimWork& work) {
   const auto description = load(claim, work);
   const Scene scene = make_scene(description);
   std::array<Replicates, kClaimStrategies.size()> all;
@@ -124,7 +124,7 @@ const std::vector<ClaimScene>& claim_scenes() {
 
 void measure_variance_claims(reports::ResultLog& log, bool full) {
   fmt::print("variance claims: MIS against BSDF sampling and light sampling\n");
-  Work work;
+  ClaimWork work;
   if (full) work = {.width = 48, .height = 36, .replicates = 32, .samples_per_pixel = 48};
   std::vector<SceneRuns> runs;
   for (const ClaimScene& scene : claim_scenes()) runs.push_back(measure_scene(scene, work));

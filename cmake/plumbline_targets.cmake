@@ -38,17 +38,3 @@ endfunction()
 function(plumbline_cold target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
-
-# plumbline_precompile_std(TARGET [HEADER …]), plumbline_precompiled_like(TARGET OTHER)
-#
-# Parses what nearly every source of a target includes once for all of them; the sources include it all the same.
-# Of targets that are compiled alike the first does, and the others take its file: with the same -O, or GCC 12
-# crashes, and with the definitions that the first has. Who uses a library sees nothing of it.
-function(plumbline_precompiled_like target other)
-  target_precompile_headers(${target} REUSE_FROM ${other})
-endfunction()
-
-function(plumbline_precompile_std target)
-  target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <functional> <map> <memory>
-                            <optional> <string> <utility> <variant> <vector> ${ARGN})
-endfunction()

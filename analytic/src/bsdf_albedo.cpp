@@ -13,9 +13,9 @@
 namespace plumbline::analytic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
-using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
+using boost::math::quadrature::gauss_kronrod;
 
 /// 1/(1 + Λ), Λ = (√(1 + α² tan²θ) − 1)/2. Walter et al. 2007, Eq. 34.
 double masking(const Roughness& roughness, const Vec3& w) {
@@ -35,7 +35,7 @@ std::vector<double> borders_along_turn(const Condition& holds) {
   double from = 0;
   bool before = holds(from);
   for (int i = 1; i <= kSteps; ++i) {
-    const double to = 2 * kPi * i / kSteps;
+    const double to = 2 * pi * i / kSteps;
     const bool after = holds(to);
     if (after != before) {
       double low = from, high = to;
@@ -48,7 +48,7 @@ std::vector<double> borders_along_turn(const Condition& holds) {
     from = to;
     before = after;
   }
-  borders.push_back(2 * kPi);
+  borders.push_back(2 * pi);
   return borders;
 }
 
@@ -82,17 +82,17 @@ double mean_over_normals(const Roughness& roughness, const Vec3& wo, const Share
         borders_along_turn([&](double phi) { return scattered(r, phi).has_value(); });
     double sum = 0;
     for (std::size_t i = 1; i < borders.size(); ++i) {
-      sum += Quadrature::integrate([&](double phi) { return at(r, phi); }, borders[i - 1],
-                                   borders[i], 10, 1e-6);
+      sum += gauss_kronrod<double, 15>::integrate([&](double phi) { return at(r, phi); },
+                                                  borders[i - 1], borders[i], 10, 1e-6);
     }
-    return 2 * v * sum / (2 * kPi);
+    return 2 * v * sum / (2 * pi);
   };
-  return Quadrature::integrate(over_azimuth, 0.0, 1.0, 10, 1e-6);
+  return gauss_kronrod<double, 15>::integrate(over_azimuth, 0.0, 1.0, 10, 1e-6);
 }
 
 /// ∫ max(0, a + b cosφ) dφ over a turn, b ≥ 0.
 double positive_part(double a, double b) {
-  if (a >= b) return 2 * kPi * a;
+  if (a >= b) return 2 * pi * a;
   if (a <= -b) return 0;
   const double edge = std::acos(-a / b);
   return 2 * (a * edge + b * std::sin(edge));
@@ -102,7 +102,7 @@ double positive_part(double a, double b) {
 double positive_share(double a, double b) {
   if (a >= b) return 1;
   if (a <= -b) return 0;
-  return std::acos(-a / b) / kPi;
+  return std::acos(-a / b) / pi;
 }
 
 /// The mean of g(cosα cosθ, sinα sinθ) over the density (n + 1) cosⁿα sinα dα: uniform in
@@ -115,8 +115,8 @@ double mean_over_lobe(double exponent, double cosine, const Function& g) {
     return g(std::exp(log_cos) * cosine, std::sqrt(-std::expm1(2 * log_cos)) * sine);
   };
   const double edge = std::pow(sine, exponent + 1);  // cosα cosθ = sinα sinθ: cosα = sinθ
-  return Quadrature::integrate(at, 0.0, edge, 15, 1e-11) +
-         Quadrature::integrate(at, edge, 1.0, 15, 1e-11);
+  return gauss_kronrod<double, 15>::integrate(at, 0.0, edge, 15, 1e-11) +
+         gauss_kronrod<double, 15>::integrate(at, edge, 1.0, 15, 1e-11);
 }
 
 }  // namespace
@@ -144,7 +144,7 @@ double ggx_refraction_albedo(const Roughness& roughness, const Vec3& wo, double 
 
 double phong_albedo(double exponent, double cosine) {
   const double mean = mean_over_lobe(
-      exponent, cosine, [](double a, double b) { return positive_part(a, b) / (2 * kPi); });
+      exponent, cosine, [](double a, double b) { return positive_part(a, b) / (2 * pi); });
   return (exponent + 2) / (exponent + 1) * mean;
 }
 

@@ -53,12 +53,12 @@ double film_reflectance(double cosine, double outside, double film, Index base, 
 
 double film_band_reflectance(double cosine, double outside, double film, Index base,
                              double thickness, double wavelength_low, double wavelength_high) {
-  using Quadrature = boost::math::quadrature::gauss_kronrod<double, 31>;
+  using boost::math::quadrature::gauss_kronrod;
   const double low = 1 / wavelength_high, high = 1 / wavelength_low;
   const auto reflectance = [&](double wavenumber) {
     return film_reflectance(cosine, outside, film, base, thickness, 1 / wavenumber);
   };
-  return Quadrature::integrate(reflectance, low, high, 12, 1e-10) / (high - low);
+  return gauss_kronrod<double, 31>::integrate(reflectance, low, high, 12, 1e-10) / (high - low);
 }
 
 }  // namespace plumbline::analytic

@@ -7,7 +7,7 @@
 namespace plumbline::analytic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double hump(double x, double mean, double sd) {
   const double z = (x - mean) / sd;
@@ -50,7 +50,7 @@ Integral1d bad_gaussian_line() {
   integral.formula = "normal density, sd 1, on the whole line";
   integral.low = -40;
   integral.high = 40;
-  integral.f = [](double x) { return hump(x, 0, 1) / std::sqrt(2 * kPi); };
+  integral.f = [](double x) { return hump(x, 0, 1) / std::sqrt(2 * pi); };
   integral.breaks = {-12, -8, -6, -4, -3, -2, -1, 0, 1, 2, 3, 4, 6, 8, 12};
   integral.value = 1;
   integral.densities = {gaussian_density(0, 0.6), gaussian_density(0, 2)};
@@ -174,7 +174,7 @@ const std::vector<Integral1d>& known_integrals() {
 double gaussian_ratio_second_moment(double sd_f, double sd_p) {
   const double a = 1 / (sd_f * sd_f) - 1 / (2 * sd_p * sd_p);
   if (!(a > 0)) return std::numeric_limits<double>::infinity();
-  return sd_p / (sd_f * sd_f * std::sqrt(2 * kPi)) * std::sqrt(kPi / a);
+  return sd_p / (sd_f * sd_f * std::sqrt(2 * pi)) * std::sqrt(pi / a);
 }
 
 double cone_fraction(double half_angle) {
@@ -186,6 +186,6 @@ double samples_for_relative_error(double probability, double relative_error) {
   return (1 - probability) / probability / (relative_error * relative_error);
 }
 
-double sun_half_angle() { return 0.2665 * kPi / 180; }
+double sun_half_angle() { return 0.2665 * pi / 180; }
 
 }  // namespace plumbline::analytic

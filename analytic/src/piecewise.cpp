@@ -9,13 +9,13 @@ namespace plumbline::analytic {
 
 namespace {
 
-using Function = std::function<double(double)>;
+using Smooth = std::function<double(double)>;
 
 constexpr double kTolerance = 1e-13;  // relative to the whole piece
 constexpr int kMaxRefinements = 16;
 
 /// One application of the rule. On [−1, 1], because Boost 1.74 states the error per unit of length.
-Quadrature apply_rule(const Function& f, double a, double b) {
+Quadrature apply_rule(const Smooth& f, double a, double b) {
   using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
   const double middle = 0.5 * (a + b);
   const double half = 0.5 * (b - a);
@@ -26,7 +26,7 @@ Quadrature apply_rule(const Function& f, double a, double b) {
   return result;
 }
 
-Quadrature refine(const Function& f, double a, double b, const Quadrature& coarse, double tolerance,
+Quadrature refine(const Smooth& f, double a, double b, const Quadrature& coarse, double tolerance,
                   int refinements) {
   if (coarse.error <= tolerance || refinements == 0) return coarse;
   const double middle = 0.5 * (a + b);
@@ -39,13 +39,13 @@ Quadrature refine(const Function& f, double a, double b, const Quadrature& coars
 
 }  // namespace
 
-Quadrature integrate_smooth(const Function& f, double a, double b, double noise) {
+Quadrature integrate_smooth(const Smooth& f, double a, double b, double noise) {
   const Quadrature coarse = apply_rule(f, a, b);
   return refine(f, a, b, coarse, std::max(kTolerance * std::abs(coarse.value), noise),
                 kMaxRefinements);
 }
 
-Quadrature integrate_pieces(const Function& f, const std::vector<double>& cuts, double noise) {
+Quadrature integrate_pieces(const Smooth& f, const std::vector<double>& cuts, double noise) {
   Quadrature sum;
   for (std::size_t i = 1; i < cuts.size(); ++i) {
     const Quadrature piece = integrate_smooth(f, cuts[i - 1], cuts[i], noise);

@@ -9,7 +9,7 @@
 namespace plumbline::analytic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
@@ -171,7 +171,7 @@ double cone_moment(const Vec3& center, double half_angle, const Vec3& normal, co
   const double sine = std::sin(half_angle), cosine = std::cos(half_angle);
   // The cone's lowest direction is at the angle between its axis and `a` plus θ.
   const auto above = [&](const Vec3& a) { return dot(center, a) >= sine; };
-  if (!(half_angle > 0 && half_angle < kPi / 2 && above(normal) && above(axis))) {
+  if (!(half_angle > 0 && half_angle < pi / 2 && above(normal) && above(axis))) {
     throw std::invalid_argument("the cone of light is not wholly above the horizons of both axes");
   }
   const Vec3 helper = std::abs(center.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
@@ -182,14 +182,14 @@ double cone_moment(const Vec3& center, double half_angle, const Vec3& normal, co
   const int points = exponent + 3;
   std::vector<RimPoint> rim;
   for (int i = 0; i < points; ++i) {
-    const double phi = 2 * kPi * i / points;
+    const double phi = 2 * pi * i / points;
     const Vec3 side = e1 * std::cos(phi) + e2 * std::sin(phi);
-    const Vec3 outward = (side * cosine - center * sine) * (sine * 2 * kPi / points);
+    const Vec3 outward = (side * cosine - center * sine) * (sine * 2 * pi / points);
     const double g = dot(axis, center * cosine + side * sine);
     const double first = exponent % 2 == 0 ? 1 : g;
     rim.push_back({dot(normal, outward) * first, dot(axis, outward) * first, g});
   }
-  const double solid_angle = 2 * kPi * sine * sine / (1 + cosine);
+  const double solid_angle = 2 * pi * sine * sine / (1 + cosine);
   return double_axis_moment(exponent, dot(axis, normal), solid_angle, [&] {
     Boundary sum;
     for (RimPoint& point : rim) {

@@ -10,7 +10,7 @@
 namespace plumbline::analytic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// ∫ dy/(a² + y²)² from 0 to y.
 double inner_integral(double a, double y) {
@@ -27,7 +27,7 @@ double disk_part_irradiance(double radius, double height, double x, double y, do
     const double a = std::hypot(height, radius * std::sin(t) - x);
     return (inner_integral(a, half - y) + inner_integral(a, half + y)) * half;
   };
-  return height * height * integrate_smooth(chord, low, kPi / 2, 1e-13).value;
+  return height * height * integrate_smooth(chord, low, pi / 2, 1e-13).value;
 }
 
 double disk_irradiance(double radius, double height, double lateral) {
@@ -35,7 +35,7 @@ double disk_irradiance(double radius, double height, double lateral) {
   const double root = std::sqrt(sum * sum - 4 * lateral * lateral * radius * radius);
   // 1 − (sum − 2 R²)/root without cancelling: (root² − (sum − 2R²)²)/(root (root + sum − 2R²)),
   // whose numerator is 4 R² H².
-  return 2 * kPi * radius * radius * height * height / (root * (root + sum - 2 * radius * radius));
+  return 2 * pi * radius * radius * height * height / (root * (root + sum - 2 * radius * radius));
 }
 
 double eclipsed_irradiance(const SphereCone& light, const SphereCone& blocker) {
@@ -48,7 +48,7 @@ double eclipsed_irradiance(const SphereCone& light, const SphereCone& blocker) {
   const double cz = light.x * blocker.y - light.y * blocker.x;
   const double apart = std::atan2(std::hypot(cx, cy, cz), along);
   if (apart + light.half_angle <= blocker.half_angle) return 0;
-  const double full = kPi * std::sin(light.half_angle) * std::sin(light.half_angle) * light.z;
+  const double full = pi * std::sin(light.half_angle) * std::sin(light.half_angle) * light.z;
   if (apart >= light.half_angle + blocker.half_angle) return full;
 
   // On the ring at angle a from the light's axis cosθ = z cos a + s sin a cos φ. With the azimuth
@@ -56,7 +56,7 @@ double eclipsed_irradiance(const SphereCone& light, const SphereCone& blocker) {
   // towards the blocker, n·e, stays in the integral over it.
   const double toward = apart > 0 ? (blocker.z - light.z * along) / std::sin(apart) : 0;
   const auto covered_ring = [&](double a) {
-    double half_width = kPi;
+    double half_width = pi;
     const double denominator = std::sin(a) * std::sin(apart);
     const double cosine = std::cos(blocker.half_angle) - std::cos(a) * std::cos(apart);
     if (cosine >= denominator) return 0.0;

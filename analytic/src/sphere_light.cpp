@@ -6,7 +6,7 @@
 namespace plumbline::analytic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// x − sin x for x in [0, π], to full relative precision.
 double minus_sine(double x) {
@@ -44,7 +44,7 @@ double sphere_irradiance(double radius, double height, double lateral) {
   const double d = std::hypot(height, lateral);
   if (d < radius || height <= -radius) return 0;
   const double full = (radius / d) * (radius / d) * (height / d);
-  if (height >= radius) return kPi * full;
+  if (height >= radius) return pi * full;
   const double q = std::sqrt((radius - height) * (radius + height));
   const double c = std::sqrt(std::fmax(0, (lateral - q) * (lateral + q)));  // < 0 by rounding only
   const double phi = std::atan2(q * d, -height * c);
@@ -71,7 +71,7 @@ double sphere_irradiance_mean_above(double radius, double height, double x0, dou
   const double triple = height * (x1 - x0) * (y1 - y0);
   const double solid_angle = 2 * std::atan2(triple, a * b * c + ab * c + ac * b + bc * a) +
                              2 * std::atan2(triple, a * c * e + ac * e + ae * c + ce * a);
-  return kPi * radius * radius * solid_angle / ((x1 - x0) * (y1 - y0));
+  return pi * radius * radius * solid_angle / ((x1 - x0) * (y1 - y0));
 }
 
 }  // namespace plumbline::analytic

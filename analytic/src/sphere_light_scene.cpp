@@ -14,8 +14,8 @@
 namespace plumbline::analytic {
 namespace {
 
-constexpr double kFloorHalfSide = 10;  // of sphere_light.xml
-constexpr double kRounding = 1e-13;    // relative, of the closed forms
+constexpr double kSceneHalfSide = 10;          // of sphere_light.xml
+constexpr double kClosedFormRounding = 1e-13;  // relative, of the closed forms
 
 struct FloorBox {
   double x0, x1, y0, y1;
@@ -73,7 +73,7 @@ class SphereLightOracle final : public PixelOracle {
     } else {
       mean = clipped_mean(radius_, height_, floor);
     }
-    mean.error += kRounding * mean.value;
+    mean.error += kClosedFormRounding * mean.value;
     return {reflected_ * mean.value, reflected_ * mean.error};
   }
 
@@ -105,8 +105,8 @@ std::unique_ptr<PixelOracle> make_sphere_light(const OracleInput& input) {
   const FilmSize film = input.camera.film;
   const FloorBox seen =
       oracle->on_floor({0, 0, static_cast<double>(film.width), static_cast<double>(film.height)});
-  require(seen.x0 >= -kFloorHalfSide && seen.x1 <= kFloorHalfSide && seen.y0 >= -kFloorHalfSide &&
-              seen.y1 <= kFloorHalfSide,
+  require(seen.x0 >= -kSceneHalfSide && seen.x1 <= kSceneHalfSide && seen.y0 >= -kSceneHalfSide &&
+              seen.y1 <= kSceneHalfSide,
           "the film is so narrow that it sees past the floor's edge");
   return oracle;
 }

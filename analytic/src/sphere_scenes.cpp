@@ -54,7 +54,7 @@ struct GridLight {
 };
 
 constexpr int kLights = 1000;
-constexpr double kSpacing = 0.08, kLightRadius = 0.036, kLightHeight = 1;
+constexpr double kSpacing = 0.08, kGridRadius = 0.036, kGridHeight = 1;
 
 GridLight grid_light(int i) {
   const int column = i % 40, row = i / 40;
@@ -71,7 +71,7 @@ std::unique_ptr<PixelOracle> make_lights_1000(const OracleInput& input) {
                           const double dx = p.x - light.x, dy = p.y - light.y;
                           const double lateral = std::sqrt(dx * dx + dy * dy);
                           sum +=
-                              light.radiance * disk_irradiance(kLightRadius, kLightHeight, lateral);
+                              light.radiance * disk_irradiance(kGridRadius, kGridHeight, lateral);
                         }
                         return scale * sum;
                       },

@@ -12,7 +12,7 @@
 namespace plumbline::analytic {
 namespace {
 
-constexpr Vec3 kUp{0, 0, 1};
+constexpr Vec3 kNormal{0, 0, 1};
 constexpr double kSunHalfAngle = 0.2665 * std::numbers::pi / 180;
 
 /// The wall of sidewalk.xml: in the plane x = -1, |y| ≤ 2, up to z = 3.
@@ -24,7 +24,7 @@ enum class Sun { covered, clear, partly };
 Sun sun_behind_wall(const Vec3& p, const Vec3& to_sun, double half_angle) {
   // To be safe, a sun a little larger than it is, and square.
   const double margin = 2 * std::tan(half_angle);
-  const Vec3 e1 = normalize(cross(to_sun, kUp)), e2 = cross(e1, to_sun);
+  const Vec3 e1 = normalize(cross(to_sun, kNormal)), e2 = cross(e1, to_sun);
   int covered = 0;
   for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
     const Vec3 w = to_sun + e1 * (a * margin) + e2 * (b * margin);
@@ -57,7 +57,7 @@ std::unique_ptr<PixelOracle> make_sidewalk(const OracleInput& input) {
           "the shadow's edge is in view: the closed form is of sun or shade alone");
   const double direct = place == Sun::clear ? sunlight / sky : 0;
   return floor_oracle(input.camera, 10, [=](const Vec3& p, const Vec3&) {
-    return reflected * (std::numbers::pi - polygon_irradiance(kWall, p, kUp) + direct);
+    return reflected * (std::numbers::pi - polygon_irradiance(kWall, p, kNormal) + direct);
   });
 }
 
@@ -96,17 +96,17 @@ KnownScene sidewalk() {
 
 /// f I cosθ/d² with f of the Phong lobe, n = 20.
 std::unique_ptr<PixelOracle> make_point_glossy(const OracleInput& input) {
-  constexpr double kExponent = 20;
+  constexpr double kSpotExponent = 20;
   const double intensity = parameter(input, "intensity");
   require(intensity >= 0 && intensity < 1e300, "intensity must be finite and not negative");
   const double scale =
-      counts_reflected(input) ? (kExponent + 2) / (2 * std::numbers::pi) * intensity : 0;
+      counts_reflected(input) ? (kSpotExponent + 2) / (2 * std::numbers::pi) * intensity : 0;
   return floor_oracle(input.camera, 10, [=](const Vec3& p, const Vec3& to_camera) {
     const Vec3 r = Vec3{1.2, 0, 1.2} - p;
     const double d2 = dot(r, r);
     const Vec3 wi = r * (1 / std::sqrt(d2));
     const double lobe = dot(wi, {-to_camera.x, -to_camera.y, to_camera.z});
-    return lobe > 0 ? scale * std::pow(lobe, kExponent) * wi.z / d2 : 0;
+    return lobe > 0 ? scale * std::pow(lobe, kSpotExponent) * wi.z / d2 : 0;
   });
 }
 
@@ -116,10 +116,10 @@ KnownScene point_glossy() {
       make_point_glossy);
   scene.view = {{-1.2, 0, 1.2}, {0, 0, 0}, {0, 0, 1}, 40};
   scene.parameters = {{"intensity", 5, "of the light [W/sr], not negative"}};
-  constexpr std::string_view kBlind = "no direction from a BSDF meets a point";
-  scene.expectations = expect_pass_but_for({{Strategy::bsdf, Expected::fail, kBlind},
-                                            {Strategy::uniform, Expected::fail, kBlind},
-                                            {Strategy::average, Expected::fail, kBlind}});
+  constexpr std::string_view kUnmet = "no direction from a BSDF meets a point";
+  scene.expectations = expect_pass_but_for({{Strategy::bsdf, Expected::fail, kUnmet},
+                                            {Strategy::uniform, Expected::fail, kUnmet},
+                                            {Strategy::average, Expected::fail, kUnmet}});
   return scene;
 }
 

@@ -56,15 +56,16 @@ TEST(CubeFurnace, SecondMomentOfAreaSamplingGrowsLikeOneOverDistanceToTheEdgeSqu
   // ∫ G² over the adjacent face, for a point at distance h from the middle of an edge of length 2.
   // As h falls, h² times it tends to ∫∫ z²/(1 + z² + t²)⁴ dz dt over the half plane = π/24, so the
   // mean over any patch that reaches the edge, ∫ dh/h², diverges.
-  using Quadrature = boost::math::quadrature::gauss_kronrod<double, 31>;
+  using boost::math::quadrature::gauss_kronrod;
   for (const double h : {1e-1, 1e-2, 1e-3}) {
     // In units of h, on a face that reaches 2/h up and 1/h to either side.
     const auto row = [&](double z) {
-      return 2 * Quadrature::integrate(
+      return 2 * gauss_kronrod<double, 31>::integrate(
                      [&](double t) { return z * z * std::pow(1 + z * z + t * t, -4); }, 0.0, 1 / h,
                      20, 1e-10);
     };
-    const double second_moment_h2 = Quadrature::integrate(row, 0.0, 2 / h, 20, 1e-10);
+    const double second_moment_h2 =
+        gauss_kronrod<double, 31>::integrate(row, 0.0, 2 / h, 20, 1e-10);
     EXPECT_NEAR(second_moment_h2, std::numbers::pi / 24, 2 * std::pow(h, 4)) << h;
   }
 }

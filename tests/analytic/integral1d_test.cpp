@@ -57,7 +57,7 @@ TEST(Integral1d, DensitiesIntegrateToOne) {
 TEST(Integral1d, QuantilesDrawFromTheirDensities) {
   // ∫ h(quantile(u)) du = ∫ h(x) p(x) dx for h that pin the distribution down: its mean, its spread
   // and a wave.
-  using Quadrature = boost::math::quadrature::gauss_kronrod<double, 61>;
+  using boost::math::quadrature::gauss_kronrod;
   const std::vector<std::function<double(double)>> probes = {
       [](double x) { return x; }, [](double x) { return x * x; },
       [](double x) { return std::sin(7 * x + 1); }};
@@ -66,7 +66,7 @@ TEST(Integral1d, QuantilesDrawFromTheirDensities) {
       for (const auto& probe : probes) {
         const double by_density =
             integrate(integral, [&](double x) { return probe(x) * density.pdf_x(x); });
-        const double by_quantile = Quadrature::integrate(
+        const double by_quantile = gauss_kronrod<double, 61>::integrate(
             [&](double u) { return probe(density.quantile(u)); }, 0.0, 1.0, 15, 1e-10);
         EXPECT_NEAR(by_quantile, by_density, 1e-6) << density.name;
       }

@@ -11,10 +11,10 @@
 namespace plumbline::analytic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr Vec3 kUp{0, 0, 1};
 
-using Quadrature = boost::math::quadrature::gauss_kronrod<double, 21>;
+using boost::math::quadrature::gauss_kronrod;
 
 Vec3 unit(double x, double y, double z) { return normalize({x, y, z}); }
 
@@ -23,9 +23,9 @@ Vec3 unit(double x, double y, double z) { return normalize({x, y, z}); }
 double moment_by_area(const Polygon& t, const Vec3& p, const Vec3& v, const Vec3& w, int n) {
   const Vec3 e1 = t[1] - t[0], e2 = t[2] - t[0];
   const Vec3 normal = cross(e1, e2);
-  return Quadrature::integrate(
+  return gauss_kronrod<double, 21>::integrate(
       [&](double a) {
-        return Quadrature::integrate(
+        return gauss_kronrod<double, 21>::integrate(
             [&](double b) {
               const Vec3 r = t[0] + e1 * a + e2 * (b * (1 - a)) - p;
               const double d = std::sqrt(dot(r, r));
@@ -60,7 +60,7 @@ TEST(PolygonIrradiance, CutByTheHorizonAgreesWithQuadratureOverTheArea) {
 TEST(PolygonIrradiance, OfAVastSquareIsPi) {
   const double r = 1e8;
   EXPECT_NEAR(polygon_irradiance({{-r, -r, 1}, {r, -r, 1}, {r, r, 1}, {-r, r, 1}}, {0, 0, 0}, kUp),
-              kPi, 1e-12);
+              pi, 1e-12);
 }
 
 TEST(PolygonIrradiance, DoesNotDependOnTheOrderOfCornersNorOnTheScale) {
@@ -73,7 +73,7 @@ TEST(PolygonIrradiance, DoesNotDependOnTheOrderOfCornersNorOnTheScale) {
 }
 
 TEST(PolygonSolidAngle, OfAnOctantIsHalfPi) {
-  EXPECT_NEAR(polygon_solid_angle({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}, kUp), kPi / 2,
+  EXPECT_NEAR(polygon_solid_angle({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}, kUp), pi / 2,
               1e-15);
 }
 
@@ -109,7 +109,7 @@ TEST(ConeMoment, AroundTheLobesAxisIsTheClosedForm) {
         const Vec3 axis{std::sin(tilt), 0, std::cos(tilt)};
         // 1 − cosⁿ⁺²θ without cancelling.
         const double closed =
-            std::cos(tilt) * 2 * kPi * -std::expm1((n + 2) * std::log(std::cos(theta))) / (n + 2);
+            std::cos(tilt) * 2 * pi * -std::expm1((n + 2) * std::log(std::cos(theta))) / (n + 2);
         EXPECT_NEAR(cone_moment(axis, theta, kUp, axis, n), closed, 1e-12 * closed + 1e-15);
       }
     }
@@ -121,16 +121,16 @@ TEST(ConeMoment, BesideTheAxisAgreesWithQuadratureOverTheCone) {
   const Vec3 e1 = normalize(cross(center, {1, 0, 0})), e2 = cross(center, e1);
   const double theta = 0.4;
   for (const int n : {1, 2, 7, 30}) {
-    const double by_area = Quadrature::integrate(
+    const double by_area = gauss_kronrod<double, 21>::integrate(
         [&](double t) {
-          return std::sin(t) * Quadrature::integrate(
+          return std::sin(t) * gauss_kronrod<double, 21>::integrate(
                                    [&](double phi) {
                                      const Vec3 u =
                                          center * std::cos(t) +
                                          (e1 * std::cos(phi) + e2 * std::sin(phi)) * std::sin(t);
                                      return std::pow(dot(axis, u), n) * u.z;
                                    },
-                                   0.0, 2 * kPi, 12, 1e-12);
+                                   0.0, 2 * pi, 12, 1e-12);
         },
         0.0, theta, 12, 1e-12);
     EXPECT_NEAR(cone_moment(center, theta, kUp, axis, n), by_area, 1e-10 * by_area) << n;

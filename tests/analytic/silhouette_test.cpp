@@ -12,7 +12,7 @@
 namespace plumbline::analytic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Case {
   View view;
@@ -72,15 +72,15 @@ double chord(const Case& c, const Camera& camera, double y, double x0, double x1
 }
 
 TEST(UnitDiskPolygonArea, KnownPieces) {
-  EXPECT_NEAR(unit_disk_polygon_area({{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}}), kPi, 1e-14);
-  EXPECT_NEAR(unit_disk_polygon_area({{{0, 0}, {2, 0}, {2, 2}, {0, 2}}}), kPi / 4, 1e-15);
+  EXPECT_NEAR(unit_disk_polygon_area({{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}}), pi, 1e-14);
+  EXPECT_NEAR(unit_disk_polygon_area({{{0, 0}, {2, 0}, {2, 2}, {0, 2}}}), pi / 4, 1e-15);
   EXPECT_NEAR(unit_disk_polygon_area({{{-.1, -.1}, {.1, -.1}, {.1, .1}, {-.1, .1}}}), 0.04, 1e-16);
   EXPECT_NEAR(unit_disk_polygon_area({{{2, 2}, {3, 2}, {3, 3}, {2, 3}}}), 0, 1e-15);
   // A half plane at distance ½ leaves the segment acos(½) − ½·√3/2.
   EXPECT_NEAR(unit_disk_polygon_area({{{.5, -2}, {2, -2}, {2, 2}, {.5, 2}}}),
-              kPi / 3 - std::sqrt(3.0) / 4, 1e-15);
+              pi / 3 - std::sqrt(3.0) / 4, 1e-15);
   // Turned the other way round, the area is negative.
-  EXPECT_NEAR(unit_disk_polygon_area({{{0, 2}, {2, 2}, {2, 0}, {0, 0}}}), -kPi / 4, 1e-15);
+  EXPECT_NEAR(unit_disk_polygon_area({{{0, 2}, {2, 2}, {2, 0}, {0, 0}}}), -pi / 4, 1e-15);
 }
 
 TEST(SphereSilhouette, CoverageAgreesWithIntegratedChords) {
@@ -148,8 +148,8 @@ TEST(SphereSilhouette, SphereOnTheAxisIsACircle) {
   const Camera camera = make_camera({{0, -4, 0}, {0, 0, 0}, {0, 0, 1}, 90}, {2, 2});
   const SphereSilhouette silhouette(camera, {0, 0, 0}, 1);
   const double tan2 = 1.0 / 15;
-  EXPECT_NEAR(silhouette.coverage({0, 0, 2, 2}), kPi * tan2 / 4, 1e-15);
-  EXPECT_NEAR(silhouette.coverage({1, 0, 2, 1}), kPi * tan2 / 4, 1e-15);
+  EXPECT_NEAR(silhouette.coverage({0, 0, 2, 2}), pi * tan2 / 4, 1e-15);
+  EXPECT_NEAR(silhouette.coverage({1, 0, 2, 1}), pi * tan2 / 4, 1e-15);
 }
 
 TEST(SphereSilhouette, RefusesASphereThatIsNotWhollyInFront) {

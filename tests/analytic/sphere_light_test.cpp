@@ -15,7 +15,7 @@
 namespace plumbline::analytic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The irradiance by quadrature over rings around the *normal*, where the closed form works around
 /// the light's axis: ∫ cosθ sinθ 2Φ(θ) dθ, with Φ the half-width in azimuth of the cone at polar
@@ -24,11 +24,11 @@ double irradiance_by_rings(double radius, double height, double lateral) {
   const double d = std::hypot(height, lateral);
   const double sigma = std::asin(radius / d);
   const double beta = std::atan2(lateral, height);
-  const double last = std::min(beta + sigma, kPi / 2);
+  const double last = std::min(beta + sigma, pi / 2);
   // A ring meets the cone's edge where cosΦ = (cos σ − cosθ cosβ)/(sinθ sinβ), and 1 ∓ cosΦ factor
   // into half angles, which keeps Φ precise where the ring only grazes it.
   const auto half_width = [&](double theta) {
-    if (theta <= sigma - beta) return kPi;
+    if (theta <= sigma - beta) return pi;
     const double a = std::sin((sigma + beta - theta) / 2) * std::sin((sigma - beta + theta) / 2);
     const double b = std::sin((theta + beta - sigma) / 2) * std::sin((theta + beta + sigma) / 2);
     return 2 * std::atan2(std::sqrt(std::max(a, 0.0)), std::sqrt(std::max(b, 0.0)));
@@ -39,7 +39,7 @@ double irradiance_by_rings(double radius, double height, double lateral) {
   boost::math::quadrature::tanh_sinh<double> quadrature;
   double sum = 0;
   if (sigma > beta) {
-    sum += quadrature.integrate(ring, 0.0, std::min(sigma - beta, kPi / 2), 1e-14);
+    sum += quadrature.integrate(ring, 0.0, std::min(sigma - beta, pi / 2), 1e-14);
   }
   const double first = std::abs(beta - sigma);
   if (first < last) sum += quadrature.integrate(ring, first, last, 1e-14);
@@ -60,7 +60,7 @@ TEST(SphereIrradiance, PartlyBelowTheHorizonAgreesWithQuadrature) {
   for (const double height : {0.49999, 0.4, 0.25, 0.01, 0.0, -0.01, -0.25, -0.4}) {
     for (const double lateral : {0.501, 0.6, 0.75, 2.0, 10.0}) {
       const double exact = sphere_irradiance(0.5, height, lateral);
-      const double scale = std::max(exact, kPi * 0.25 / (lateral * lateral + height * height));
+      const double scale = std::max(exact, pi * 0.25 / (lateral * lateral + height * height));
       const double tolerance = height >= 0 ? 1e-12 * exact : 1e-12 * scale;
       EXPECT_NEAR(exact, irradiance_by_rings(0.5, height, lateral), tolerance)
           << height << ' ' << lateral;
@@ -84,7 +84,7 @@ TEST(SphereIrradiance, VanishesAsTheSphereSinks) {
 
 TEST(SphereIrradiance, TouchingPointSeesNothingElse) {
   // At the contact point the sphere fills the hemisphere.
-  EXPECT_DOUBLE_EQ(sphere_irradiance(0.5, 0.5, 0), kPi);
+  EXPECT_DOUBLE_EQ(sphere_irradiance(0.5, 0.5, 0), pi);
 }
 
 TEST(SphereIrradiance, HalfSunkenSphereLooksHalfAsLarge) {
@@ -99,13 +99,13 @@ TEST(SphereIrradiance, HalfSunkenSphereLooksHalfAsLarge) {
 
 TEST(SphereIrradiance, FarSphereIsAPointLight) {
   // E/L → π R² cosβ/d², with a relative error that is exactly 0 above the horizon.
-  EXPECT_NEAR(sphere_irradiance(1e-6, 3, 4) / (kPi * 1e-12 * 0.6 / 25), 1, 1e-14);
+  EXPECT_NEAR(sphere_irradiance(1e-6, 3, 4) / (pi * 1e-12 * 0.6 / 25), 1, 1e-14);
 }
 
 TEST(SphereIrradiance, InsideTheSphereIsDark) { EXPECT_EQ(sphere_irradiance(1, 0.5, 0.2), 0); }
 
 TEST(SphereIrradianceMean, AgreesWithNestedQuadrature) {
-  using Quadrature = boost::math::quadrature::gauss_kronrod<double, 21>;
+  using boost::math::quadrature::gauss_kronrod;
   struct Box {
     double x0, x1, y0, y1;
   };
@@ -113,11 +113,11 @@ TEST(SphereIrradianceMean, AgreesWithNestedQuadrature) {
   for (const Box& box : boxes) {
     for (const double height : {0.5, 1.0, 4.0}) {
       const auto row = [&](double y) {
-        return Quadrature::integrate(
+        return gauss_kronrod<double, 21>::integrate(
             [&](double x) { return sphere_irradiance(0.5, height, std::hypot(x, y)); }, box.x0,
             box.x1, 8, 1e-13);
       };
-      const double mean = Quadrature::integrate(row, box.y0, box.y1, 8, 1e-13) /
+      const double mean = gauss_kronrod<double, 21>::integrate(row, box.y0, box.y1, 8, 1e-13) /
                           ((box.x1 - box.x0) * (box.y1 - box.y0));
       const double exact =
           sphere_irradiance_mean_above(0.5, height, box.x0, box.x1, box.y0, box.y1);
@@ -152,7 +152,7 @@ TEST(SphereLightScene, PixelsAgreeWithBruteForceThroughTheCamera) {
           sum += sphere_irradiance(radius, height, std::hypot(p.x, p.y));
         }
       }
-      const double brute = 0.75 / kPi * 4 * sum / (kGrid * kGrid);
+      const double brute = 0.75 / pi * 4 * sum / (kGrid * kGrid);
       const Average exact = oracle->pixel_mean(px, py);
       EXPECT_NEAR(exact.value, brute, 3e-4 * brute) << height << ' ' << px << ' ' << py;
       EXPECT_LE(exact.error, 1e-9 * exact.value);

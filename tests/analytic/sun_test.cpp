@@ -15,23 +15,23 @@
 namespace plumbline::analytic {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
-using Quadrature = boost::math::quadrature::gauss_kronrod<double, 31>;
+using boost::math::quadrature::gauss_kronrod;
 
 /// ∫ of f(w, cos of the angle to the axis, for which w is unit) over the cone around `axis` [sr].
 template <class F>
 double over_cone(const Vec3& axis, double half_angle, const F& f) {
   const Vec3 s = normalize(cross(axis, std::abs(axis.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}));
   const Vec3 t = cross(axis, s);
-  return Quadrature::integrate(
+  return gauss_kronrod<double, 31>::integrate(
       [&](double a) {
-        return std::sin(a) * Quadrature::integrate(
+        return std::sin(a) * gauss_kronrod<double, 31>::integrate(
                                  [&](double phi) {
                                    return f(axis * std::cos(a) + s * (std::sin(a) * std::cos(phi)) +
                                             t * (std::sin(a) * std::sin(phi)));
                                  },
-                                 0, 2 * kPi, 3, 1e-12);
+                                 0, 2 * pi, 3, 1e-12);
       },
       0, half_angle, 3, 1e-12);
 }
@@ -47,7 +47,7 @@ constexpr std::array<std::pair<double, double>, 5> kFilmPoints{
 
 /// The sidewalk at a film point: the camera is 1 above the origin, looks down, and +y is up.
 Vec3 sidewalk_point(double x, double y) {
-  const double scale = std::tan(25 * kPi / 180) / 32;
+  const double scale = std::tan(25 * pi / 180) / 32;
   return {(x - 32) * scale, (24 - y) * scale, 0};
 }
 
@@ -68,13 +68,14 @@ double sky_irradiance(const Vec3& p) {
   };
   // The wall's vertical edges, between which it stands.
   const double first = std::atan2(2 - p.y, -1 - p.x);
-  const double last = std::atan2(-2 - p.y, -1 - p.x) + 2 * kPi;
-  return Quadrature::integrate(open, first, last, 10, 1e-12) + (2 * kPi - (last - first)) / 2;
+  const double last = std::atan2(-2 - p.y, -1 - p.x) + 2 * pi;
+  return gauss_kronrod<double, 31>::integrate(open, first, last, 10, 1e-12) +
+         (2 * pi - (last - first)) / 2;
 }
 
 /// ∫ cosθ over the part of the sun that the wall leaves, direction by direction.
 double sun_irradiance(const Vec3& p, const Vec3& to_sun) {
-  return over_cone(to_sun, 0.2665 * kPi / 180, [&](const Vec3& w) {
+  return over_cone(to_sun, 0.2665 * pi / 180, [&](const Vec3& w) {
     const double tangent = w.z / std::hypot(w.x, w.y);
     return tangent < wall_tangent(p, std::atan2(w.y, w.x)) ? 0.0 : w.z;
   });
@@ -86,7 +87,7 @@ void expect_sidewalk_by_quadrature(double sun_x) {
   for (const auto& [x, y] : kFilmPoints) {
     const Vec3 p = sidewalk_point(x, y);
     const double expected =
-        0.5 / kPi * (0.5 * sky_irradiance(p) + 20000 * sun_irradiance(p, to_sun));
+        0.5 / pi * (0.5 * sky_irradiance(p) + 20000 * sun_irradiance(p, to_sun));
     EXPECT_NEAR(at(*oracle, x, y) / expected, 1, 1e-8) << x << " " << y;
   }
 }
@@ -107,7 +108,7 @@ TEST(Sidewalk, RefusesTheEdgeOfTheShadow) {
 
 /// The floor at a film point of point_glossy: from (−1.2, 0, 1.2) to the origin, 40° wide.
 Vec3 glossy_point(double x, double y) {
-  const double scale = std::tan(20 * kPi / 180) / 32;
+  const double scale = std::tan(20 * pi / 180) / 32;
   const double h = std::sqrt(0.5);
   const Vec3 d =
       Vec3{h, 0, -h} + Vec3{0, -1, 0} * ((x - 32) * scale) + Vec3{h, 0, h} * ((24 - y) * scale);
@@ -122,17 +123,17 @@ TEST(PointGlossy, IsTheLimitOfASmallSphereThatEmitsAsMuch) {
     const Vec3 to_light = Vec3{1.2, 0, 1.2} - p, from_camera = p - Vec3{-1.2, 0, 1.2};
     const double distance = std::sqrt(dot(to_light, to_light));
     const Vec3 mirrored = normalize({from_camera.x, from_camera.y, -from_camera.z});
-    const double radiance = kIntensity / (kPi * kRadius * kRadius);
+    const double radiance = kIntensity / (pi * kRadius * kRadius);
     const double expected =
         over_cone(normalize(to_light), std::asin(kRadius / distance), [&](const Vec3& w) {
           const double lobe = std::pow(std::max(dot(w, mirrored), 0.0), kExponent);
-          return (kExponent + 2) / (2 * kPi) * lobe * radiance * w.z;
+          return (kExponent + 2) / (2 * pi) * lobe * radiance * w.z;
         });
     // What the sphere's extent changes is of the order of n² R²/d².
     EXPECT_NEAR(at(*oracle, x, y) / expected, 1, 1e-5) << x << " " << y;
   }
   // In the middle the light lies in the mirror direction: 11/π · I cos45°/d².
-  EXPECT_NEAR(at(*oracle, 32, 24), 11 / kPi * kIntensity * std::sqrt(0.5) / 2.88, 1e-6);
+  EXPECT_NEAR(at(*oracle, 32, 24), 11 / pi * kIntensity * std::sqrt(0.5) / 2.88, 1e-6);
 }
 
 }  // namespace

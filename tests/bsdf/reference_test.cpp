@@ -22,7 +22,7 @@ namespace {
 
 using namespace renderer;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Fresnel, DielectricsAgreeWithComplexAmplitudes) {
   for (const float eta : {0.4f, 1 / 1.5f, 0.99f, 1.01f, 1.5f, 2.5f}) {
@@ -121,7 +121,7 @@ TEST(AnalyticAlbedo, PhongAtNormalIncidenceKeepsAll) {
 TEST(AnalyticAlbedo, PhongOfExponentOneHasAClosedFormAtGrazing) {
   // n = 1, wo along the surface: f = 3/(2π) cosα with cosα = sinθ cosφ, so the albedo is
   // 3/(2π) · ∫ sin²θ cosθ dθ · ∫ cosφ dφ over |φ| < π/2 = 3/(2π) · 1/3 · 2 = 1/π.
-  EXPECT_NEAR(analytic::phong_albedo(1, 0), 1 / kPi, 1e-9);
+  EXPECT_NEAR(analytic::phong_albedo(1, 0), 1 / pi, 1e-9);
 }
 
 constexpr std::size_t kGreen = 1;
@@ -183,7 +183,7 @@ TYPED_TEST(Albedo, MeanWeightIsTheAlbedoByQuadratureAndAtMostOne) {
         continue;
       }
       EXPECT_LE(reference, 1 + 1e-6) << example.name;
-      const double degrees = std::acos(static_cast<double>(wo.z)) * 180 / kPi;
+      const double degrees = std::acos(static_cast<double>(wo.z)) * 180 / pi;
       expect_verdict(check_albedo(example, wo, reference, allowance(example),
                                   example.name + "/albedo at " + std::to_string(degrees)));
     }

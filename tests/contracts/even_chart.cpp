@@ -8,7 +8,7 @@
 namespace plumbline::tests {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double dot(const Direction& a, const Direction& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -23,7 +23,7 @@ Direction combine(const std::array<Direction, 3>& axes, const Direction& by) {
 }
 
 double in_turns(double angle) {
-  const double turns = angle / (2 * kPi);
+  const double turns = angle / (2 * pi);
   return turns < 0 ? turns + 1 : turns;
 }
 
@@ -73,11 +73,9 @@ struct Pixels {
   std::vector<Staircase> columns;
   Staircase rows{{}};
 
-  double cos_top(std::size_t row) const {
-    return std::cos(kPi * static_cast<double>(row) / height);
-  }
+  double cos_top(std::size_t row) const { return std::cos(pi * static_cast<double>(row) / height); }
   double solid_angle(std::size_t row) const {
-    return 2 * kPi / width * (cos_top(row) - cos_top(row + 1));
+    return 2 * pi / width * (cos_top(row) - cos_top(row + 1));
   }
 };
 
@@ -106,14 +104,13 @@ EvenChart pixel_chart(int width, int height, const std::vector<double>& weights,
     const double top = pixels.cos_top(row.step), bottom = pixels.cos_top(row.step + 1);
     const double cos_theta = top + row.fraction * (bottom - top);
     const double sin_theta = std::sqrt(std::max(0.0, 1 - cos_theta * cos_theta));
-    const double phi =
-        2 * kPi * (static_cast<double>(column.step) + column.fraction) / pixels.width;
+    const double phi = 2 * pi * (static_cast<double>(column.step) + column.fraction) / pixels.width;
     return combine(pixels.axes, {sin_theta * std::sin(phi), cos_theta, -sin_theta * std::cos(phi)});
   };
   chart.to_square = [pixels](const Direction& w) {
     const double x = dot(w, pixels.axes[0]), y = dot(w, pixels.axes[1]), z = dot(w, pixels.axes[2]);
     const double theta = std::atan2(std::hypot(x, z), y);
-    Place row = part_of(theta / kPi, pixels.height);
+    Place row = part_of(theta / pi, pixels.height);
     const double top = pixels.cos_top(row.step), bottom = pixels.cos_top(row.step + 1);
     row.fraction = (std::cos(theta) - top) / (bottom - top);
     const Place column = part_of(in_turns(std::atan2(x, -z)), pixels.width);
@@ -143,7 +140,7 @@ EvenChart cone_chart(const Direction& axis, double one_minus_cos) {
     const double h = p[0] < 0.5 ? 2 * p[0] * one_minus_cos
                                 : one_minus_cos + (2 * p[0] - 1) * (2 - one_minus_cos);
     const double sin_theta = std::sqrt(std::max(0.0, h * (2 - h)));
-    const double phi = 2 * kPi * p[1];
+    const double phi = 2 * pi * p[1];
     return combine(frame, {sin_theta * std::cos(phi), sin_theta * std::sin(phi), 1 - h});
   };
   chart.to_square = [frame, one_minus_cos](const Direction& w) {
@@ -158,7 +155,7 @@ EvenChart cone_chart(const Direction& axis, double one_minus_cos) {
     return SquarePoint{share, in_turns(std::atan2(dot(w, frame[1]), dot(w, frame[0])))};
   };
   chart.solid_angle = [one_minus_cos](const SquarePoint& p) {
-    return 4 * kPi * (p[0] < 0.5 ? one_minus_cos : 2 - one_minus_cos);
+    return 4 * pi * (p[0] < 0.5 ? one_minus_cos : 2 - one_minus_cos);
   };
   return chart;
 }

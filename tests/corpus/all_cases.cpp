@@ -36,9 +36,7 @@ std::vector<Case> all_cases(Half half) {
     return cases;
   }
   append(cases, bsdf_cases());
-#ifdef PLUMBLINE_CORPUS_PAIRS
   append(cases, pair_cases());
-#endif
   for (Case& c : cases) {
     if (c.fault.empty() == (half == Half::correct)) chosen.push_back(std::move(c));
   }

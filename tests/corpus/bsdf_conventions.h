@@ -120,7 +120,7 @@ struct WorldStyle {
   }
   double eval(const Indexed& wo, const Indexed& wi) const {
     const double f = paint.eval(frame.to_local(wo.v()), frame.to_local(wi.v()));
-    return fault == 2 ? f / kPi<double> : f;
+    return fault == 2 ? f / pi_v<double> : f;
   }
 };
 

@@ -15,20 +15,20 @@ struct Lambert {
 
   std::optional<Sampled<T>> sample(const V3<T>& wo, const P2<T>& u) const {
     if (!(wo.z > 0)) return std::nullopt;
-    const T r = fault == 1 ? u.x : std::sqrt(u.x), phi = 2 * kPi<T> * u.y;
+    const T r = fault == 1 ? u.x : std::sqrt(u.x), phi = 2 * pi_v<T> * u.y;
     const V3<T> wi{r * std::cos(phi), r * std::sin(phi), safe_sqrt(1 - r * r)};
-    const T pdf_w = fault == 7 ? pdf(wo, wi) * kPi<T> : pdf(wo, wi);
-    return Sampled<T>{wi, fault == 6 ? albedo / kPi<T> : albedo, pdf_w};
+    const T pdf_w = fault == 7 ? pdf(wo, wi) * pi_v<T> : pdf(wo, wi);
+    return Sampled<T>{wi, fault == 6 ? albedo / pi_v<T> : albedo, pdf_w};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    if (fault == 2) return 1 / (2 * kPi<T>);
-    return fault == 3 ? wi.z : wi.z / kPi<T>;
+    if (fault == 2) return 1 / (2 * pi_v<T>);
+    return fault == 3 ? wi.z : wi.z / pi_v<T>;
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    const T f = albedo / kPi<T>;
-    return fault == 4 ? f * wi.z : fault == 5 ? f / kPi<T> : f;
+    const T f = albedo / pi_v<T>;
+    return fault == 4 ? f * wi.z : fault == 5 ? f / pi_v<T> : f;
   }
 };
 
@@ -53,14 +53,14 @@ struct DiffuseTransmitter {
     return {wi, (std::abs(wi.z) / q) * eval(wo, wi), q};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
-    const T cosine = std::abs(wi.z) / kPi<T>;
+    const T cosine = std::abs(wi.z) / pi_v<T>;
     if (fault == 2) return cosine;
     if (fault == 3) return cosine / 2;
     const T p = fault == 4 ? 1 - reflect_probability() : reflect_probability();
     return wo.z * wi.z > 0 ? p * cosine : (1 - p) * cosine;
   }
   Rgb<T> eval(const V3<T>& wo, const V3<T>& wi) const {
-    return 1 / kPi<T> * (wo.z * wi.z > 0 ? reflectance : transmittance);
+    return 1 / pi_v<T> * (wo.z * wi.z > 0 ? reflectance : transmittance);
   }
 };
 
@@ -84,7 +84,7 @@ struct OrenNayar {
     return Record{wi, eval(wi, wo), pdf(wi, wo)};
   }
   T pdf(const V3<T>& wi, const V3<T>& wo) const {
-    return wi.z > 0 && wo.z > 0 ? wi.z / kPi<T> : T(0);
+    return wi.z > 0 && wo.z > 0 ? wi.z / pi_v<T> : T(0);
   }
   T eval(const V3<T>& wi, const V3<T>& wo) const {
     if (wi.z <= 0 || wo.z <= 0) return 0;
@@ -98,7 +98,7 @@ struct OrenNayar {
     const bool wi_steeper = fault == 1 ? true : fault == 2 ? wi.z <= wo.z : wi.z > wo.z;
     const T sin_alpha = wi_steeper ? sin_o : sin_i;
     const T tan_beta = wi_steeper ? sin_i / wi.z : sin_o / wo.z;
-    const T f = albedo / kPi<T> * (a + b * cos_difference * sin_alpha * tan_beta);
+    const T f = albedo / pi_v<T> * (a + b * cos_difference * sin_alpha * tan_beta);
     return fault == 3 ? f * wi.z * wi.z : fault == 4 ? f : f * wi.z;
   }
 };
@@ -118,21 +118,21 @@ struct Sheen {
   };
   std::optional<Record> sample(const V3<T>& wo, T u, T v) const {
     if (!(wo.z > 0)) return std::nullopt;
-    const T z = fault == 1 ? std::cos(u * kPi<T> / 2) : fault == 2 ? std::sqrt(1 - u) : 1 - u;
-    const V3<T> wi = spherical(z, 2 * kPi<T> * v);
+    const T z = fault == 1 ? std::cos(u * pi_v<T> / 2) : fault == 2 ? std::sqrt(1 - u) : 1 - u;
+    const V3<T> wi = spherical(z, 2 * pi_v<T> * v);
     const T q = pdf(wo, wi);
     if (!(q > 0)) return std::nullopt;
     return Record{wi, eval(wo, wi) * wi.z / q, q};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return fault == 3 ? 1 / (4 * kPi<T>) : 1 / (2 * kPi<T>);
+    return fault == 3 ? 1 / (4 * pi_v<T>) : 1 / (2 * pi_v<T>);
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const V3<T> h = unit(wo + wi);
     const T sin_h = std::sqrt(h.x * h.x + h.y * h.y), k = 1 / roughness;
-    const T d = (2 + k) * std::pow(sin_h, k) / (2 * kPi<T>);
+    const T d = (2 + k) * std::pow(sin_h, k) / (2 * pi_v<T>);
     return d / (4 * (wi.z + wo.z - wi.z * wo.z));
   }
 };
@@ -146,7 +146,7 @@ struct Retroreflector {
   std::optional<Sampled<T>> sample(const V3<T>& wo, const P2<T>& u) const {
     if (!(wo.z > 0)) return std::nullopt;
     const T cosine = std::pow(u.x, 1 / (exponent + (fault == 3 ? T(2) : T(1))));
-    V3<T> wi = Frame<T>(wo).to_world(spherical(cosine, 2 * kPi<T> * u.y));
+    V3<T> wi = Frame<T>(wo).to_world(spherical(cosine, 2 * pi_v<T> * u.y));
     if (fault == 4) wi = {-wi.x, -wi.y, wi.z};
     if (fault == 1 && !(wi.z > 0)) return Sampled<T>{wi, 0, lobe(dot(wo, wi))};
     if (fault == 2 && !(wi.z > 0)) wi.z = -wi.z;
@@ -164,7 +164,7 @@ struct Retroreflector {
     if (!(wo.z > 0) || !(wi.z > 0) || cosine <= 0) return 0;
     return albedo * lobe(cosine) / std::max(wo.z, wi.z);
   }
-  T lobe(T cosine) const { return (exponent + 1) / (2 * kPi<T>)*std::pow(cosine, exponent); }
+  T lobe(T cosine) const { return (exponent + 1) / (2 * pi_v<T>)*std::pow(cosine, exponent); }
 };
 
 /// Dusty ground after Lommel and Seeliger. It draws from the caller's generator.
@@ -181,11 +181,11 @@ struct Regolith {
     return Sampled<double>{wi, eval(wo, wi) * wi.z / q, q};
   }
   double pdf(const V3<double>& wo, const V3<double>& wi) const {
-    return wo.z > 0 && wi.z > 0 ? wi.z / kPi<double> : 0;
+    return wo.z > 0 && wi.z > 0 ? wi.z / pi_v<double> : 0;
   }
   double eval(const V3<double>& wo, const V3<double>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return albedo / (4 * kPi<double>) / (fault == 3 ? wo.z + wo.z : wo.z + wi.z);
+    return albedo / (4 * pi_v<double>) / (fault == 3 ? wo.z + wo.z : wo.z + wi.z);
   }
 };
 

@@ -28,10 +28,10 @@ Conductor<T> textbook(T alpha) {
     const double z = std::sqrt((i + 0.5) / kRows);
     for (int j = 0; j < kColumns; ++j) {
       sum +=
-          metal.eval({wo[0], wo[1], wo[2]}, spherical(z, 2 * kPi<double> * (j + 0.5) / kColumns));
+          metal.eval({wo[0], wo[1], wo[2]}, spherical(z, 2 * pi_v<double> * (j + 0.5) / kColumns));
     }
   }
-  return sum * kPi<double> / (kRows * kColumns);
+  return sum * pi_v<double> / (kRows * kColumns);
 }
 
 [[maybe_unused]] BsdfOptions known_beckmann(double alpha) {

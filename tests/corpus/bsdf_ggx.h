@@ -21,10 +21,10 @@ struct Ggx {
   T d(const V3<T>& h) const {
     if (textbook) {
       const T a2 = ax * ax, q = (a2 - 1) * h.z * h.z + 1;
-      return a2 / (kPi<T> * q * q);
+      return a2 / (pi_v<T> * q * q);
     }
     const T q = sqr(h.x / ax) + sqr(h.y / ay) + h.z * h.z;
-    return 1 / (kPi<T> * ax * ay * q * q);
+    return 1 / (pi_v<T> * ax * ay * q * q);
   }
   T lambda(const V3<T>& w) const {
     return (std::sqrt(1 + (sqr(ax * w.x) + sqr(ay * w.y)) / (w.z * w.z)) - 1) / 2;
@@ -38,7 +38,7 @@ struct Ggx {
   }
   V3<T> sample_caps(const V3<T>& wo, T u, T v) const {
     const V3<T> w = unit(V3<T>{ax * wo.x, ay * wo.y, wo.z});
-    const T phi = 2 * kPi<T> * u, z = (1 - v) * (1 + w.z) - w.z, s = safe_sqrt(1 - z * z);
+    const T phi = 2 * pi_v<T> * u, z = (1 - v) * (1 + w.z) - w.z, s = safe_sqrt(1 - z * z);
     const V3<T> c{s * std::cos(phi) + w.x, s * std::sin(phi) + w.y, z + w.z};
     return unit(V3<T>{ax * c.x, ay * c.y, std::max(T(0), c.z)});
   }
@@ -48,14 +48,14 @@ struct Ggx {
     V3<T> t1 = l2 > 0 || fault == 31 ? 1 / std::sqrt(l2) * V3<T>{-w.y, w.x, 0} : V3<T>{1, 0, 0};
     if (fault == 30) t1 = Frame<T>(w).s;
     const V3<T> t2 = cross(w, t1);
-    const T r = std::sqrt(u), phi = 2 * kPi<T> * v;
+    const T r = std::sqrt(u), phi = 2 * pi_v<T> * v;
     const T p1 = r * std::cos(phi), s = (1 + w.z) / 2;
     const T p2 = (1 - s) * safe_sqrt(1 - p1 * p1) + s * (r * std::sin(phi));
     const V3<T> n = p1 * t1 + p2 * t2 + safe_sqrt(1 - p1 * p1 - p2 * p2) * w;
     return unit(V3<T>{ax * n.x, ay * n.y, std::max(T(0), n.z)});
   }
   V3<T> sample_all(T u, T v) const {
-    const T phi = std::atan2(ay * std::sin(2 * kPi<T> * v), ax * std::cos(2 * kPi<T> * v));
+    const T phi = std::atan2(ay * std::sin(2 * pi_v<T> * v), ax * std::cos(2 * pi_v<T> * v));
     const T c = std::cos(phi), s = std::sin(phi);
     const T tan2 = u / (1 - u) / (sqr(c / ax) + sqr(s / ay));
     const T cosine = 1 / std::sqrt(1 + tan2), sine = std::sqrt(tan2) * cosine;
@@ -137,7 +137,7 @@ struct Conductor {
     if (fault == 16) g = ggx.g1(wo);
     if (fault == 17) g = 1;
     const T f = schlick(f0, fault == 18 ? wo.z : dot(wo, h)) * ggx.d(h) * g / (4 * wo.z * wi.z);
-    return fault == 19 ? f * wi.z : fault == 20 ? f * kPi<T> : f;
+    return fault == 19 ? f * wi.z : fault == 20 ? f * pi_v<T> : f;
   }
 };
 
@@ -177,18 +177,18 @@ struct Beckmann {
     const T sine = std::sqrt(w.x * w.x + w.y * w.y);
     if (sine < std::numeric_limits<T>::min()) return 0;
     const T a = w.z / (roughness * sine);
-    return (std::exp(-a * a) / (a * std::sqrt(kPi<T>)) - std::erfc(a)) / 2;
+    return (std::exp(-a * a) / (a * std::sqrt(pi_v<T>)) - std::erfc(a)) / 2;
   }
   T d(const V3<T>& h) const {
     const T c2 = h.z * h.z, a2 = alpha * alpha;
-    return std::exp(-(1 - c2) / (c2 * a2)) / (kPi<T> * a2 * c2 * c2);
+    return std::exp(-(1 - c2) / (c2 * a2)) / (pi_v<T> * a2 * c2 * c2);
   }
   std::optional<Sampled<T>> sample(const V3<T>& wo, Pcg32& generator) const {
     if (!(wo.z > 0)) return std::nullopt;
     const auto number = [&generator] { return std::ldexp(static_cast<T>(generator() >> 9), -23); };
     const T u = number(), v = number();
     const T tan2 = -(fault == 1 ? alpha : alpha * alpha) * std::log(1 - u);
-    const T cosine = 1 / std::sqrt(1 + tan2), phi = 2 * kPi<T> * v;
+    const T cosine = 1 / std::sqrt(1 + tan2), phi = 2 * pi_v<T> * v;
     const T sine = std::sqrt(tan2) * cosine;
     const V3<T> h{sine * std::cos(phi), sine * std::sin(phi), cosine};
     const V3<T> wi = mirrored_at(wo, h);

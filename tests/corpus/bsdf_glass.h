@@ -84,17 +84,17 @@ struct SmoothCoat {
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (wo.z * wi.z <= 0 || (!two_sided && wo.z < 0)) return 0;
-    const T cosine = std::abs(wi.z) / kPi<T>;
+    const T cosine = std::abs(wi.z) / pi_v<T>;
     if (fault == 1) return cosine;
     if (fault == 2) return specular_probability(wo) * cosine;
     return (1 - specular_probability(fault == 3 ? wi : wo)) * cosine;
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (wo.z * wi.z <= 0 || (!two_sided && wo.z < 0)) return 0;
-    if (fault == 6) return albedo / kPi<T>;
-    if (fault == 7) return (1 - fresnel(wo)) * albedo / kPi<T>;
+    if (fault == 6) return albedo / pi_v<T>;
+    if (fault == 7) return (1 - fresnel(wo)) * albedo / pi_v<T>;
     const T trapped = 1 / (eta * eta) / (1 - albedo * kInside);
-    return (1 - fresnel(wo)) * (1 - fresnel(wi)) * trapped * albedo / kPi<T>;
+    return (1 - fresnel(wo)) * (1 - fresnel(wi)) * trapped * albedo / pi_v<T>;
   }
 };
 

@@ -35,7 +35,7 @@ struct Hair {
   static T log_i0(T x) {
     if (x > 20) {
       const T y = 1 / (8 * x);
-      return x - std::log(2 * kPi<T> * x) / 2 +
+      return x - std::log(2 * pi_v<T> * x) / 2 +
              std::log1p(y * (1 + y * (T(4.5) + y * (T(37.5) + y * T(459.375)))));
     }
     T term = 1, sum = 1;
@@ -49,26 +49,26 @@ struct Hair {
     const T cosine = 1 + v * std::log(std::max(u1, T(1e-7)) + (1 - u1) * std::exp(-2 / v));
     const T sine = safe_sqrt(1 - cosine * cosine);
     const T cos_o = safe_sqrt(1 - sin_o * sin_o);
-    return -cosine * sin_o + sine * std::cos(2 * kPi<T> * u2) * cos_o;
+    return -cosine * sin_o + sine * std::cos(2 * pi_v<T> * u2) * cos_o;
   }
 
   /// Where light of lobe p leaves, about the fibre, over where it came in.
   T exit_azimuth(std::size_t p) const {
     const T gamma_o = std::asin(offset), gamma_t = std::asin(offset / eta);
-    return 2 * T(p) * gamma_t - 2 * gamma_o + T(p) * kPi<T>;
+    return 2 * T(p) * gamma_t - 2 * gamma_o + T(p) * pi_v<T>;
   }
   T logistic_cdf(T x) const { return 1 / (1 + std::exp(-x / azimuthal)); }
   T azimuthal_pdf(T phi, std::size_t p) const {
     T x = phi - exit_azimuth(p);
-    x -= 2 * kPi<T> * std::floor((x + kPi<T>) / (2 * kPi<T>));
+    x -= 2 * pi_v<T> * std::floor((x + pi_v<T>) / (2 * pi_v<T>));
     const T e = std::exp(-std::abs(x) / azimuthal);
     const T density = e / (azimuthal * sqr(1 + e));
-    const T inside = logistic_cdf(kPi<T>) - logistic_cdf(-kPi<T>);
+    const T inside = logistic_cdf(pi_v<T>) - logistic_cdf(-pi_v<T>);
     return fault == 1 ? density : density / inside;
   }
   T sample_azimuthal(std::size_t p, T u) const {
-    const T low = logistic_cdf(-kPi<T>), k = low + u * (logistic_cdf(kPi<T>) - low);
-    const T x = std::clamp(-azimuthal * std::log(1 / k - 1), -kPi<T>, kPi<T>);
+    const T low = logistic_cdf(-pi_v<T>), k = low + u * (logistic_cdf(pi_v<T>) - low);
+    const T x = std::clamp(-azimuthal * std::log(1 / k - 1), -pi_v<T>, pi_v<T>);
     return exit_azimuth(p) + (fault == 2 ? -x + T(0.3) : x);
   }
   T width(std::size_t p) const {
@@ -86,7 +86,7 @@ struct Hair {
     const T again = below_one((u.x - below) / probability(p));
     const T sin_i = sample_longitudinal(wo.x, width(p), u.y, u.z);
     const T cos_i = safe_sqrt(1 - sin_i * sin_i);
-    T phi = p < 3 ? sample_azimuthal(p, fault == 3 ? u.x : again) : 2 * kPi<T> * again;
+    T phi = p < 3 ? sample_azimuthal(p, fault == 3 ? u.x : again) : 2 * pi_v<T> * again;
     phi += std::atan2(wo.z, wo.y);
     const V3<T> wi{sin_i, cos_i * std::cos(phi), cos_i * std::sin(phi)};
     return Record{wi, eval(wo, wi), pdf(wo, wi)};
@@ -95,7 +95,7 @@ struct Hair {
     const T phi = std::atan2(wi.z, wi.y) - std::atan2(wo.z, wo.y);
     T m = longitudinal_pdf(wi.x, wo.x, fault == 4 ? longitudinal : width(p));
     if (fault == 5) m /= std::max(T(1e-4), safe_sqrt(1 - wi.x * wi.x));
-    return m * (p < 3 ? azimuthal_pdf(fault == 6 ? -phi : phi, p) : 1 / (2 * kPi<T>));
+    return m * (p < 3 ? azimuthal_pdf(fault == 6 ? -phi : phi, p) : 1 / (2 * pi_v<T>));
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     T sum = 0;

@@ -64,7 +64,7 @@ class AlbedoLayers {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const T p = coat_probability(fault_ == 1 ? wi : wo);
     const T coat = coat_.g1(wo) * coat_.d(unit(wo + wi)) / (4 * wo.z);
-    return (fault_ == 2 ? T(1) : p) * coat + (1 - p) * wi.z / kPi<T>;
+    return (fault_ == 2 ? T(1) : p) * coat + (1 - p) * wi.z / pi_v<T>;
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
@@ -74,7 +74,7 @@ class AlbedoLayers {
     if (fault_ == 3) base = 1;
     if (fault_ == 4) base = 1 - coat_albedo(wo.z);
     if (fault_ == 5) base /= 1 - mean_;
-    return f + albedo_ / kPi<T> * base;
+    return f + albedo_ / pi_v<T> * base;
   }
 
  private:
@@ -123,11 +123,11 @@ struct Principled {
   /// log in place of α², as the coat has wider tails than GGX.
   T gtr1(T cos_h, T a) const {
     const T a2 = a * a, t = 1 + (a2 - 1) * cos_h * cos_h;
-    return (a2 - 1) / (kPi<T> * std::log(a2) * t);
+    return (a2 - 1) / (pi_v<T> * std::log(a2) * t);
   }
   V3<T> sample_coat(T u, T v) const {
     const T a2 = fault == 1 ? coat_alpha() : sqr(coat_alpha());
-    return spherical(safe_sqrt((1 - std::pow(a2, 1 - u)) / (1 - a2)), 2 * kPi<T> * v);
+    return spherical(safe_sqrt((1 - std::pow(a2, 1 - u)) / (1 - a2)), 2 * pi_v<T> * v);
   }
   std::optional<SampledRgb<T>> sample(const V3<T>& wo, const P3<T>& u) const {
     if (wo.z == 0) return std::nullopt;
@@ -159,7 +159,7 @@ struct Principled {
     if (!(wo.z > 0) || !(wi.z > 0)) return sum;
     const V3<T> h = unit(wo + wi);
     const T half = 1 / (4 * dot(wo, h));
-    sum += share[0] * wi.z / kPi<T> + share[1] * metal().visible(wo, h) * half;
+    sum += share[0] * wi.z / pi_v<T> + share[1] * metal().visible(wo, h) * half;
     const T coat = gtr1(h.z, coat_alpha()) * (fault == 4 ? T(1) : h.z);
     return sum + (fault == 5 ? clearcoat / 4 : share[2]) * coat * (fault == 6 ? T(0.25) : half);
   }
@@ -172,14 +172,14 @@ struct Principled {
     const T f90 = T(0.5) + 2 * roughness * d * d;
     const auto rise = [f90](T c) { return 1 + (f90 - 1) * schlick(T(0), c); };
     const T dielectric = (1 - metallic) * (1 - transmission);
-    const T diffuse = dielectric / kPi<T> * rise(wo.z) * (fault == 7 ? T(1) : rise(wi.z));
+    const T diffuse = dielectric / pi_v<T> * rise(wo.z) * (fault == 7 ? T(1) : rise(wi.z));
     const T g = metal().d(h) * metal().g2(wo, wi) / (4 * wo.z * wi.z);
     const Ggx<T> coat_mask{T(0.25), T(0.25)};
     const T coat = clearcoat / 4 * gtr1(h.z, coat_alpha()) * schlick(T(0.04), d) *
                    coat_mask.g1(wo) * coat_mask.g1(wi) / (4 * wo.z * wi.z);
     const Rgb<T> f0 = (dielectric * T(0.04)) * grey + metallic * tint;
     const Rgb<T> fresnel = (1 - fifth) * f0 + ((dielectric * T(0.04) + metallic) * fifth) * grey;
-    return diffuse * tint + (dielectric * sheen * fifth / kPi<T> + coat + through) * grey +
+    return diffuse * tint + (dielectric * sheen * fifth / pi_v<T> + coat + through) * grey +
            g * fresnel;
   }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 /// What every renderer has a header of its own for. Written for the corpus, apart from the one
@@ -10,8 +11,7 @@
 namespace plumbline::tests::corpus {
 inline namespace bsdf_math {
 
-template <class T>
-inline constexpr T kPi = T(3.14159265358979323846);
+using std::numbers::pi_v;
 
 template <class T>
 struct V3 {
@@ -91,7 +91,7 @@ struct Frame {
 /// Malley's method on polar coordinates.
 template <class T>
 V3<T> cosine_hemisphere(T u, T v) {
-  const T r = std::sqrt(u), phi = 2 * kPi<T> * v;
+  const T r = std::sqrt(u), phi = 2 * pi_v<T> * v;
   return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)};
 }
 
@@ -102,7 +102,7 @@ P2<T> concentric_disk(T u, T v) {
   if (a == 0 && b == 0) return {0, 0};
   const bool wide = std::abs(a) > std::abs(b);
   const T r = wide ? a : b;
-  const T phi = wide ? kPi<T> / 4 * (b / a) : kPi<T> / 2 - kPi<T> / 4 * (a / b);
+  const T phi = wide ? pi_v<T> / 4 * (b / a) : pi_v<T> / 2 - pi_v<T> / 4 * (a / b);
   return {r * std::cos(phi), r * std::sin(phi)};
 }
 

@@ -49,7 +49,7 @@ class ThetaTable {
     constexpr int kNodes = 33;
     std::vector<T> theta, density;
     for (int i = 0; i < kNodes; ++i) {
-      const T s = T(i) / (kNodes - 1), t = s * s * kPi<T> / 2;
+      const T s = T(i) / (kNodes - 1), t = s * s * pi_v<T> / 2;
       // A sharp core on a wide foot, as such measurements are.
       const T d = std::exp(-sqr(t / T(0.12))) + T(0.15) * std::exp(-sqr(t / T(0.6)));
       theta.push_back(t);
@@ -67,7 +67,7 @@ class ThetaTable {
   }
   std::optional<Sampled<T>> sample(const V3<T>& wo, T u, T v) const {
     if (!(wo.z > 0)) return std::nullopt;
-    const T theta = theta_.sample(u), phi = 2 * kPi<T> * v, s = std::sin(theta);
+    const T theta = theta_.sample(u), phi = 2 * pi_v<T> * v, s = std::sin(theta);
     const V3<T> h{s * std::cos(phi), s * std::sin(phi), std::cos(theta)};
     const V3<T> wi = mirrored_at(wo, h);
     if (!(wi.z > 0) || !(dot(wo, h) > 0)) return std::nullopt;
@@ -79,17 +79,17 @@ class ThetaTable {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const V3<T> h = unit(wo + wi);
     const T sine = std::sqrt(h.x * h.x + h.y * h.y), theta = std::atan2(sine, h.z);
-    if (fault_ == 2) return shifted_(theta) / theta_.total() / (8 * kPi<T> * sine * dot(wo, h));
+    if (fault_ == 2) return shifted_(theta) / theta_.total() / (8 * pi_v<T> * sine * dot(wo, h));
     T per_solid_angle = slope_;
     if (sine > T(1e-6)) per_solid_angle = theta_(theta) / (fault_ == 3 || fault_ == 1 ? 1 : sine);
-    const T turn = fault_ == 4 ? 1 : 2 * kPi<T>;
+    const T turn = fault_ == 4 ? 1 : 2 * pi_v<T>;
     return per_solid_angle / (theta_.total() * turn * 4 * dot(wo, h));
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const V3<T> h = unit(wo + wi);
     const T theta = std::atan2(std::sqrt(h.x * h.x + h.y * h.y), h.z);
-    const T x = std::sqrt(std::clamp(theta / (kPi<T> / 2), T(0), T(1))) * T(table_.size() - 1);
+    const T x = std::sqrt(std::clamp(theta / (pi_v<T> / 2), T(0), T(1))) * T(table_.size() - 1);
     const std::size_t i = std::min(static_cast<std::size_t>(x), table_.size() - 2);
     const T d = table_[i] + (table_[i + 1] - table_[i]) * (x - T(i));
     return d / std::max(wo.z, wi.z) * schlick(T(0.5), dot(wo, h));
@@ -110,13 +110,13 @@ class HalfImage {
   explicit HalfImage(int fault = 0) : fault_(fault), last_(std::make_shared<std::size_t>(0)) {
     double masses = 0;
     for (std::size_t r = 0; r < kRows; ++r) {
-      const double theta = (static_cast<double>(r) + 0.5) / kRows * kPi<double> / 2;
+      const double theta = (static_cast<double>(r) + 0.5) / kRows * pi_v<double> / 2;
       for (std::size_t c = 0; c < kColumns; ++c) {
-        const double phi = (static_cast<double>(c) + 0.5) / kColumns * 2 * kPi<double>;
+        const double phi = (static_cast<double>(c) + 0.5) / kColumns * 2 * pi_v<double>;
         const double across = theta * std::cos(phi), along = theta * std::sin(phi - 0.3);
         const double d = std::exp(-sqr(across / 0.25) - sqr(along / 0.7)) * std::cos(theta);
         value_.push_back(d);
-        const double area = (edge(r) - edge(r + 1)) * 2 * kPi<double> / kColumns;
+        const double area = (edge(r) - edge(r + 1)) * 2 * pi_v<double> / kColumns;
         norm_ += d * area;
         masses += d * (fault_ == 1 ? 1 : area);
         cdf_.push_back(masses);
@@ -133,7 +133,7 @@ class HalfImage {
     const std::size_t r = cell / kColumns, c = cell % kColumns;
     const double cosine = edge(r) + (edge(r + 1) - edge(r)) * std::max(0.0, again);
     const double shift = fault_ == 3 ? 0.5 : 0;
-    const double phi = (static_cast<double>(c) + u.y + shift) * 2 * kPi<double> / kColumns;
+    const double phi = (static_cast<double>(c) + u.y + shift) * 2 * pi_v<double> / kColumns;
     const V3<double> h = spherical(cosine, phi), wi = mirrored_at(wo, h);
     if (!(wi.z > 0) || !(dot(wo, h) > 0)) return std::nullopt;
     *last_ = cell;
@@ -154,14 +154,14 @@ class HalfImage {
 
  private:
   static double edge(std::size_t row) {
-    return row == kRows ? 0 : std::cos(static_cast<double>(row) / kRows * kPi<double> / 2);
+    return row == kRows ? 0 : std::cos(static_cast<double>(row) / kRows * pi_v<double> / 2);
   }
   static std::size_t cell_of(const V3<double>& h, int fault) {
     const double theta = std::atan2(std::sqrt(h.x * h.x + h.y * h.y), h.z);
     double phi = std::atan2(fault == 5 ? -h.y : h.y, h.x);
-    if (phi < 0) phi += 2 * kPi<double>;
-    const double row = theta / (kPi<double> / 2) * kRows + (fault == 4 ? 1 : 0);
-    const double column = phi / (2 * kPi<double>)*kColumns + (fault == 6 ? 0.5 : 0);
+    if (phi < 0) phi += 2 * pi_v<double>;
+    const double row = theta / (pi_v<double> / 2) * kRows + (fault == 4 ? 1 : 0);
+    const double column = phi / (2 * pi_v<double>)*kColumns + (fault == 6 ? 0.5 : 0);
     const std::size_t r = std::min(static_cast<std::size_t>(row), kRows - 1);
     return r * kColumns + static_cast<std::size_t>(column) % kColumns;
   }
@@ -187,7 +187,7 @@ class ElevationTable {
       std::vector<T> density;
       for (std::size_t i = 0; i < kNodes; ++i) {
         const T a = nodes[o], b = nodes[i];
-        f_[o][i] = (T(0.2) + T(0.5) * std::exp(-sqr((a - b) / T(0.3))) * (1 - a * b)) / kPi<T>;
+        f_[o][i] = (T(0.2) + T(0.5) * std::exp(-sqr((a - b) / T(0.3))) * (1 - a * b)) / pi_v<T>;
         if (fault == 1 && i > o) f_[o][i] *= T(0.9);
         density.push_back(f_[o][i] * std::max(b, T(0.02)));
       }
@@ -201,7 +201,7 @@ class ElevationTable {
     const T again = second ? u.x / t : (u.x - t) / (1 - t);
     const T cosine = row_[second ? o + 1 : o].sample(fault_ == 2 ? u.x : below_one(again));
     if (!(cosine > 0)) return std::nullopt;
-    const V3<T> wi = spherical(cosine, 2 * kPi<T> * u.y);
+    const V3<T> wi = spherical(cosine, 2 * pi_v<T> * u.y);
     const T q = pdf(wo, wi);
     return Sampled<T>{wi, eval(wo, wi) * wi.z / q, q};
   }
@@ -212,7 +212,7 @@ class ElevationTable {
     if (fault_ == 4) t = T(1);
     const T low = row_[o](wi.z) / row_[o].total(), high = row_[o + 1](wi.z) / row_[o + 1].total();
     const T p = (1 - t) * low + t * high;
-    return fault_ == 5 ? p * safe_sqrt(1 - wi.z * wi.z) / (2 * kPi<T>) : p / (2 * kPi<T>);
+    return fault_ == 5 ? p * safe_sqrt(1 - wi.z * wi.z) / (2 * pi_v<T>) : p / (2 * pi_v<T>);
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;

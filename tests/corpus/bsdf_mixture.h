@@ -25,11 +25,11 @@ struct PaintLobes {
   }
   T pdf_of(const V3<T>& wo, const V3<T>& wi, bool diffuse) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return diffuse ? wi.z / kPi<T> : ggx.g1(wo) * ggx.d(unit(wo + wi)) / (4 * wo.z);
+    return diffuse ? wi.z / pi_v<T> : ggx.g1(wo) * ggx.d(unit(wo + wi)) / (4 * wo.z);
   }
   T f_of(const V3<T>& wo, const V3<T>& wi, bool diffuse) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    if (diffuse) return kd / kPi<T>;
+    if (diffuse) return kd / pi_v<T>;
     return ks * ggx.d(unit(wo + wi)) * ggx.g2(wo, wi) / (4 * wo.z * wi.z);
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {

@@ -19,7 +19,7 @@ struct Phong {
   V3<T> lobe_direction(const V3<T>& wo, T u, T v) const {
     const V3<T> mirror{-wo.x, -wo.y, wo.z};
     const T cosine = std::pow(1 - u, 1 / (exponent + 1));
-    return Frame<T>(mirror).to_world(spherical(cosine, 2 * kPi<T> * v));
+    return Frame<T>(mirror).to_world(spherical(cosine, 2 * pi_v<T> * v));
   }
   Sampled<T> sample(const V3<T>& wo, T u, T v) const {
     if (!(wo.z > 0)) return {wo, 0, 0};
@@ -34,10 +34,10 @@ struct Phong {
     if (!(wi.z > 0) || !(q > 0)) return {wi, 0, 0};
     return {wi, eval(wo, wi) * wi.z / q, q};
   }
-  T diffuse_pdf(const V3<T>& wi) const { return std::max(T(0), wi.z) / kPi<T>; }
+  T diffuse_pdf(const V3<T>& wi) const { return std::max(T(0), wi.z) / pi_v<T>; }
   T lobe_pdf(const V3<T>& wo, const V3<T>& wi) const {
     const T cosine = std::max(T(0), wo.z * wi.z - wo.x * wi.x - wo.y * wi.y);
-    return (exponent + (fault == 3 ? T(2) : T(1))) / (2 * kPi<T>)*std::pow(cosine, exponent);
+    return (exponent + (fault == 3 ? T(2) : T(1))) / (2 * pi_v<T>)*std::pow(cosine, exponent);
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
@@ -48,8 +48,8 @@ struct Phong {
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const T cosine = std::max(T(0), wo.z * wi.z - wo.x * wi.x - wo.y * wi.y);
-    const T lobe = (exponent + 2) / (2 * kPi<T>)*std::pow(cosine, exponent);
-    return (fault == 6 ? kd : kd / kPi<T>)+ks * lobe;
+    const T lobe = (exponent + 2) / (2 * pi_v<T>)*std::pow(cosine, exponent);
+    return (fault == 6 ? kd : kd / pi_v<T>)+ks * lobe;
   }
 };
 
@@ -61,7 +61,7 @@ struct Blinn {
 
   std::optional<Sampled<T>> sample(const V3<T>& wo, const P2<T>& u) const {
     if (!(wo.z > 0)) return std::nullopt;
-    const V3<T> h = spherical(std::pow(1 - u.x, 1 / (exponent + 1)), 2 * kPi<T> * u.y);
+    const V3<T> h = spherical(std::pow(1 - u.x, 1 / (exponent + 1)), 2 * pi_v<T> * u.y);
     const V3<T> wi = mirrored_at(wo, h);
     if (fault == 4 && dot(wo, h) > 0 && wi.z < 0) return sample(wo, {below_one(u.x / 2), u.y});
     if (!(wi.z > 0) || !(dot(wo, h) > 0)) return std::nullopt;
@@ -72,7 +72,7 @@ struct Blinn {
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const V3<T> h = unit(wo + wi);
-    const T pdf_h = (exponent + 1) / (2 * kPi<T>)*std::pow(h.z, exponent);
+    const T pdf_h = (exponent + 1) / (2 * pi_v<T>)*std::pow(h.z, exponent);
     if (fault == 1) return pdf_h;
     if (fault == 2) return pdf_h / 4;
     return pdf_h / (4 * dot(fault == 3 ? V3<T>{0, 0, 1} : wo, h));
@@ -80,7 +80,7 @@ struct Blinn {
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const V3<T> h = unit(wo + wi);
-    const T d = (exponent + 2) / (2 * kPi<T>)*std::pow(h.z, exponent);
+    const T d = (exponent + 2) / (2 * pi_v<T>)*std::pow(h.z, exponent);
     const T g = std::min({T(1), 2 * h.z * wo.z / dot(wo, h), 2 * h.z * wi.z / dot(wo, h)});
     return schlick(f0, dot(wo, h)) * d * g / (4 * wo.z * wi.z);
   }
@@ -100,18 +100,18 @@ struct AshikhminShirley {
     return std::sqrt((n_x + 1) * (n_y + 1)) * std::pow(h.z, power);
   }
   T first_quadrant(T u) const {
-    return std::atan(std::sqrt((nu + 1) / (nv + 1)) * std::tan(kPi<T> / 2 * u));
+    return std::atan(std::sqrt((nu + 1) / (nv + 1)) * std::tan(pi_v<T> / 2 * u));
   }
   V3<T> sample_half(T u, T v) const {
     T phi = 0;
     if (u < T(0.25)) {
       phi = first_quadrant(fault == 1 ? u : 4 * u);
     } else if (u < T(0.5)) {
-      phi = kPi<T> - first_quadrant(4 * (T(0.5) - u));
+      phi = pi_v<T> - first_quadrant(4 * (T(0.5) - u));
     } else if (u < T(0.75)) {
-      phi = kPi<T> + first_quadrant(4 * (u - T(0.5)));
+      phi = pi_v<T> + first_quadrant(4 * (u - T(0.5)));
     } else {
-      phi = 2 * kPi<T> - first_quadrant(4 * (1 - u));
+      phi = 2 * pi_v<T> - first_quadrant(4 * (1 - u));
     }
     const T c = std::cos(phi), s = std::sin(phi);
     return spherical(std::pow(1 - v, 1 / (nu * c * c + nv * s * s + 1)), phi);
@@ -133,17 +133,17 @@ struct AshikhminShirley {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const V3<T> h = unit(wo + wi);
     const T d = fault == 2 ? half_density(h, nv, nu) : half_density(h, nu, nv);
-    const T glossy = d / (2 * kPi<T>) / (4 * dot(wo, h));
-    return (wi.z / kPi<T> + glossy) / (fault == 3 ? T(1) : T(2));
+    const T glossy = d / (2 * pi_v<T>) / (4 * dot(wo, h));
+    return (wi.z / pi_v<T> + glossy) / (fault == 3 ? T(1) : T(2));
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const V3<T> h = unit(wo + wi);
     const T fade_i = 1 - std::pow(1 - wi.z / 2, T(5)), fade_o = 1 - std::pow(1 - wo.z / 2, T(5));
     const T under = fault == 4 ? T(1) : 1 - rs;
-    const T diffuse = 28 * rd / (23 * kPi<T>)*under * fade_i * fade_o;
+    const T diffuse = 28 * rd / (23 * pi_v<T>)*under * fade_i * fade_o;
     const T fresnel = schlick(rs, dot(wo, h));
-    return diffuse + half_density(h, nu, nv) / (8 * kPi<T>)*fresnel /
+    return diffuse + half_density(h, nu, nv) / (8 * pi_v<T>)*fresnel /
                          (dot(wo, h) * std::max(wi.z, fault == 5 ? wi.z : wo.z));
   }
 };

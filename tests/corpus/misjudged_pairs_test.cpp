@@ -21,10 +21,10 @@ using verify::Verdict;
 TEST(OnceMisjudged, ARingThatIsExactButForTheLastBitIsALine) {
   const auto sample = [](double u, double v) {
     const double on_ring = 0.0232663 * (v < 0.5 ? 1 : 1 + 0x1p-51), z = u < 0.3 ? on_ring : u;
-    const double r = std::sqrt(1 - z * z), phi = 2 * kPi<double> * v;
+    const double r = std::sqrt(1 - z * z), phi = 2 * pi_v<double> * v;
     return Xyz<double>{r * std::cos(phi), r * std::sin(phi), -z};
   };
-  const auto below = [](const Xyz<double>& w) { return w.z < 0 ? 1 / (2 * kPi<double>) : 0.0; };
+  const auto below = [](const Xyz<double>& w) { return w.z < 0 ? 1 / (2 * pi_v<double>) : 0.0; };
   verify::ContractOptions options;
   options.seed = check_seed("ring");
   const Report report = verify::check_pair(

@@ -20,13 +20,13 @@ struct Cone {
   Xyz<T> sample(T u, T v) const {
     T away = u * one_minus_cos_max;
     if (fault == 3) away = u * u * one_minus_cos_max;
-    const Xyz<T> w = around_z(away, 2 * kPi<T> * v);
+    const Xyz<T> w = around_z(away, 2 * pi_v<T> * v);
     return fault == 4 ? w : frame.to_world(w);
   }
   T pdf(const Xyz<T>& w) const {
     if (!(one_minus_dot(w, frame.z) <= one_minus_cos_max)) return 0;
     const T solid = fault == 2 ? 1 - cos_max : one_minus_cos_max;
-    return fault == 1 ? 1 / solid : 1 / (2 * kPi<T> * solid);
+    return fault == 1 ? 1 / solid : 1 / (2 * pi_v<T> * solid);
   }
 };
 
@@ -44,7 +44,7 @@ struct SphereByArea {
   T radius;
 
   std::optional<Xyz<T>> sample(T u, T v) const {
-    const Xyz<T> n = around_z(2 * u, 2 * kPi<T> * v);
+    const Xyz<T> n = around_z(2 * u, 2 * pi_v<T> * v);
     const Xyz<T> p = centre + radius * n;
     if (dot(n, p) >= 0 && fault != 1) return std::nullopt;
     return normalized(p);
@@ -56,7 +56,7 @@ struct SphereByArea {
     if (!(along > 0 && under_root > 0)) return 0;
     const T d = along - std::sqrt(under_root);
     const T cosine = std::sqrt(under_root) / radius;
-    const T area = 4 * kPi<T> * radius * radius;
+    const T area = 4 * pi_v<T> * radius * radius;
     if (fault == 2) return d * d / area;
     if (fault == 3) return d / (area * cosine);
     if (fault == 4) return 1 / area;
@@ -109,7 +109,7 @@ struct DiskByArea {
   T radius;
 
   Xyz<T> sample(T u, T v) const {
-    const T r = radius * (fault == 3 ? u : std::sqrt(u)), phi = 2 * kPi<T> * v;
+    const T r = radius * (fault == 3 ? u : std::sqrt(u)), phi = 2 * pi_v<T> * v;
     return normalized(centre +
                       Frame<T>(normal).to_world({r * std::cos(phi), r * std::sin(phi), T(0)}));
   }
@@ -118,8 +118,8 @@ struct DiskByArea {
     if (!(cosine > 0)) return 0;
     const T d = -dot(centre, normal) / cosine;
     if (!(d > 0 && length(d * w - centre) <= radius)) return 0;
-    if (fault == 1) return 1 / (kPi<T> * radius * radius);
-    const T area = fault == 2 ? 4 * kPi<T> * radius * radius : kPi<T> * radius * radius;
+    if (fault == 1) return 1 / (pi_v<T> * radius * radius);
+    const T area = fault == 2 ? 4 * pi_v<T> * radius * radius : pi_v<T> * radius * radius;
     return d * d / (area * cosine);
   }
 };
@@ -142,7 +142,7 @@ struct SphericalRectangle {
     const T g0 = std::acos(-dot(n0, n1)), g1 = std::acos(-dot(n1, n2));
     const T g2 = std::acos(-dot(n2, n3)), g3 = std::acos(-dot(n3, n0));
     b0 = n0.z, b1 = n2.z;
-    k = 2 * kPi<T> - g2 - g3;
+    k = 2 * pi_v<T> - g2 - g3;
     solid = g0 + g1 - k;
   }
   Xyz<T> sample(T u, T v) const {
@@ -180,7 +180,7 @@ struct SphericalTriangle {
     alpha = std::acos(std::clamp(-dot(ab, ca), T(-1), T(1)));
     const T beta = std::acos(std::clamp(-dot(bc, ab), T(-1), T(1)));
     const T gamma = std::acos(std::clamp(-dot(ca, bc), T(-1), T(1)));
-    solid = alpha + beta + gamma - kPi<T>;
+    solid = alpha + beta + gamma - pi_v<T>;
   }
   static Xyz<T> orthogonal(const Xyz<T>& v, const Xyz<T>& to) {
     return normalized(v - dot(v, to) * to);
@@ -202,7 +202,7 @@ struct SphericalTriangle {
     const bool inside = turn * dot(cross(a, b), w) >= 0 && turn * dot(cross(b, c), w) >= 0 &&
                         turn * dot(cross(c, a), w) >= 0;
     if (!inside) return 0;
-    return fault == 1 ? 1 / (solid + kPi<T>) : 1 / solid;
+    return fault == 1 ? 1 / (solid + pi_v<T>) : 1 / solid;
   }
 };
 
@@ -216,7 +216,7 @@ struct HemisphereWarp {
   T exponent = 20;
 
   Xyz<T> sample(T u, T v) const {
-    const T phi = 2 * kPi<T> * v;
+    const T phi = 2 * pi_v<T> * v;
     T z = 1 - u;
     if (kind == Hemisphere::cosine || fault == 1) z = std::sqrt(1 - u);
     if (kind == Hemisphere::power) z = std::pow(1 - u, 1 / (exponent + (fault == 4 ? 0 : 1)));
@@ -227,11 +227,11 @@ struct HemisphereWarp {
     if (!(w.z >= 0)) return 0;
     switch (kind) {
       case Hemisphere::uniform:
-        return fault == 2 ? 1 / (4 * kPi<T>) : 1 / (2 * kPi<T>);
+        return fault == 2 ? 1 / (4 * pi_v<T>) : 1 / (2 * pi_v<T>);
       case Hemisphere::cosine:
-        return fault == 2 ? w.z : fault == 3 ? 1 / kPi<T> : w.z / kPi<T>;
+        return fault == 2 ? w.z : fault == 3 ? 1 / pi_v<T> : w.z / pi_v<T>;
       case Hemisphere::power:
-        return (exponent + 1) / (2 * kPi<T>)*std::pow(w.z, exponent);
+        return (exponent + 1) / (2 * pi_v<T>)*std::pow(w.z, exponent);
     }
     return 0;
   }
@@ -248,12 +248,12 @@ struct SkyAndGround {
     const bool up = u < sky;
     T left = up ? u / sky : (u - sky) / (1 - sky);
     if (fault == 3) left = u;
-    const T r = std::sqrt(left), phi = 2 * kPi<T> * v;
+    const T r = std::sqrt(left), phi = 2 * pi_v<T> * v;
     const T z = std::sqrt(std::max(T(0), 1 - left));
     return {r * std::cos(phi), r * std::sin(phi), up ? z : -z};
   }
   T pdf(const Xyz<T>& w) const {
-    const T lambert = std::abs(w.z) / kPi<T>;
+    const T lambert = std::abs(w.z) / pi_v<T>;
     if (fault == 1) return w.z > 0 ? sky * lambert : lambert;
     if (fault == 2) return w.z > 0 ? (1 - sky) * lambert : sky * lambert;
     if (fault == 4) return lambert / 2;

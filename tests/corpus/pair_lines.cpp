@@ -76,19 +76,20 @@ void add_lines(std::vector<Case>& cases) {
     return line("visible wavelengths", 360.0, 830.0, VisibleWavelengths<double>{0});
   }));
   cases.push_back(correct("trimmed logistic/double", [] {
-    return line("trimmed logistic", -kPi<double>, kPi<double>,
+    return line("trimmed logistic", -pi_v<double>, pi_v<double>,
                 TrimmedLogistic<double>{0, 0.9, 0.8});
   }));
   cases.push_back(twin("trimmed logistic/double/mirrored", "pdf at φ + centre for φ − centre",
                        {Kind::mirrored, Kind::shifted}, [] {
-                         return line("trimmed logistic", -kPi<double>, kPi<double>,
+                         return line("trimmed logistic", -pi_v<double>, pi_v<double>,
                                      TrimmedLogistic<double>{1, 0.9, 0.8});
                        }));
   cases.push_back(correct("trimmed logistic/float", [] {
-    return line("trimmed logistic", -kPi<float>, kPi<float>, TrimmedLogistic<float>{0, 0.2F, 0.8F});
+    return line("trimmed logistic", -pi_v<float>, pi_v<float>,
+                TrimmedLogistic<float>{0, 0.2F, 0.8F});
   }));
   cases.push_back(correct("von Mises/double", [] {
-    return line("von Mises", -kPi<double>, kPi<double>, VonMises<double>{0, 4});
+    return line("von Mises", -pi_v<double>, pi_v<double>, VonMises<double>{0, 4});
   }));
   cases.push_back(correct("tent/float", [] {
     return line("tent", -2.0F, 2.0F, Tent<float>{0, 2});

@@ -106,7 +106,7 @@ struct EquiAngular {
   T pdf(T t) const {
     if (!(t >= 0 && t <= most)) return 0;
     const T x = fault == 1 ? t : t - nearest;
-    const T span = fault == 3 ? kPi<T> : angle(most) - angle(0);
+    const T span = fault == 3 ? pi_v<T> : angle(most) - angle(0);
     return (fault == 2 ? T(1) : height) / (span * (height * height + x * x));
   }
 };
@@ -145,18 +145,18 @@ struct TrimmedLogistic {
 
   static T cdf(T x, T scale) { return 1 / (1 + std::exp(-x / scale)); }
   T wrapped(T x) const {
-    while (x > kPi<T>) x -= 2 * kPi<T>;
-    while (x < -kPi<T>) x += 2 * kPi<T>;
+    while (x > pi_v<T>) x -= 2 * pi_v<T>;
+    while (x < -pi_v<T>) x += 2 * pi_v<T>;
     return x;
   }
   T sample(T u) const {
-    const T low = cdf(-kPi<T>, s), k = cdf(kPi<T>, s) - low;
+    const T low = cdf(-pi_v<T>, s), k = cdf(pi_v<T>, s) - low;
     const T x = -s * std::log(1 / (u * k + low) - 1);
-    return wrapped(std::clamp(x, -kPi<T>, kPi<T>) + centre);
+    return wrapped(std::clamp(x, -pi_v<T>, pi_v<T>) + centre);
   }
   T pdf(T phi) const {
     const T x = std::abs(wrapped(phi - (fault == 1 ? -centre : fault == 4 ? T(0) : centre)));
-    const T e = std::exp(-x / s), k = fault == 2 ? T(1) : cdf(kPi<T>, s) - cdf(-kPi<T>, s);
+    const T e = std::exp(-x / s), k = fault == 2 ? T(1) : cdf(pi_v<T>, s) - cdf(-pi_v<T>, s);
     return e / ((fault == 3 ? T(1) : s) * (1 + e) * (1 + e) * k);
   }
 };
@@ -172,7 +172,7 @@ struct VonMises {
     const T tau = 1 + std::sqrt(1 + 4 * kappa * kappa);
     const T rho = (tau - std::sqrt(2 * tau)) / (2 * kappa), r = (1 + rho * rho) / (2 * rho);
     for (;;) {
-      const T z = std::cos(kPi<T> * verify::uniform<T>(random));
+      const T z = std::cos(pi_v<T> * verify::uniform<T>(random));
       const T f = (1 + r * z) / (r + z), c = kappa * (r - f);
       const T v = 1 - verify::uniform<T>(random);
       if (fault != 2 && !(std::log(c / v) + 1 - c >= 0)) continue;
@@ -185,7 +185,7 @@ struct VonMises {
     const double half = static_cast<double>(kappa) / 2;
     for (int k = 1; k < 60; ++k) bessel += term, term *= half * half / k / k;
     const T density = std::exp(kappa * std::cos(phi)) / static_cast<T>(bessel);
-    return fault == 1 ? density : density / (2 * kPi<T>);
+    return fault == 1 ? density : density / (2 * pi_v<T>);
   }
 };
 
@@ -292,7 +292,7 @@ struct TwoGaussians {
     const bool first = verify::uniform<T>(random) < weight;
     for (;;) {
       const T r = std::sqrt(-2 * std::log(1 - verify::uniform<T>(random)));
-      const T z = r * std::cos(2 * kPi<T> * verify::uniform<T>(random));
+      const T z = r * std::cos(2 * pi_v<T> * verify::uniform<T>(random));
       const T x = first ? mean0 + dev0 * z : mean1 + dev1 * z;
       if (x >= 0 && x <= 1) return x;
       if (fault == 3) return std::clamp(x, T(0), T(1));
@@ -301,7 +301,7 @@ struct TwoGaussians {
   T lobe(T x, T mean, T dev) const {
     const T z = (x - mean) / dev, root = dev * std::numbers::sqrt2_v<T>;
     const T inside = (std::erf((1 - mean) / root) + std::erf(mean / root)) / 2;
-    return std::exp(-z * z / 2) / (dev * std::sqrt(2 * kPi<T>) * (fault == 1 ? T(1) : inside));
+    return std::exp(-z * z / 2) / (dev * std::sqrt(2 * pi_v<T>) * (fault == 1 ? T(1) : inside));
   }
   T pdf(T x) const {
     if (!(x >= 0 && x <= 1)) return 0;

@@ -57,19 +57,19 @@ struct PiecewiseConstant {
 
 template <class T>
 Xyz<T> from_latitude(T u, T v) {
-  const T theta = kPi<T> * v, phi = 2 * kPi<T> * u;
+  const T theta = pi_v<T> * v, phi = 2 * pi_v<T> * u;
   return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
 template <class T>
 Xy<T> to_latitude(const Xyz<T>& w) {
-  const T phi = std::atan2(w.y, w.x) / (2 * kPi<T>);
-  return {phi < 0 ? phi + 1 : phi, std::acos(std::clamp(w.z, T(-1), T(1))) / kPi<T>};
+  const T phi = std::atan2(w.y, w.x) / (2 * pi_v<T>);
+  return {phi < 0 ? phi + 1 : phi, std::acos(std::clamp(w.z, T(-1), T(1))) / pi_v<T>};
 }
 
 template <class T>
 T sine_of_row(int j, int height) {
-  return std::sin(kPi<T> * (static_cast<T>(j) + T(0.5)) / static_cast<T>(height));
+  return std::sin(pi_v<T> * (static_cast<T>(j) + T(0.5)) / static_cast<T>(height));
 }
 
 /// A row by the marginal distribution, a texel by the conditional one of the row.
@@ -133,7 +133,7 @@ struct MapByRows {
       for (const T integral : unweighted) all += integral / static_cast<T>(height);
       density = at(row.f, i) / sine_of_row<T>(j, height) / all;
     }
-    return density / ((fault == 7 ? 1 : 2) * kPi<T> * kPi<T> * sine);
+    return density / ((fault == 7 ? 1 : 2) * pi_v<T> * pi_v<T> * sine);
   }
 };
 
@@ -200,8 +200,8 @@ struct MapByAlias {
       }
       for (T& p : table->p) p /= sum;
     }
-    texels_over_square = static_cast<T>(table->size()) / (2 * kPi<T> * kPi<T>);
-    if (fault == 2) texels_over_square = 1 / (2 * kPi<T> * kPi<T>);
+    texels_over_square = static_cast<T>(table->size()) / (2 * pi_v<T> * pi_v<T>);
+    if (fault == 2) texels_over_square = 1 / (2 * pi_v<T> * pi_v<T>);
   }
 
   int texel(const Xyz<T>& w) const {
@@ -264,14 +264,14 @@ struct MapOctahedral {
     const T a = 2 * p.x - 1, b = 2 * p.y - 1;
     const T inside = 1 - std::abs(a) - std::abs(b);  // < 0: the lower hemisphere
     const T r = 1 - std::abs(inside);
-    const T phi = (r > 0 ? (std::abs(b) - std::abs(a)) / r + 1 : T(1)) * kPi<T> / 4;
+    const T phi = (r > 0 ? (std::abs(b) - std::abs(a)) / r + 1 : T(1)) * pi_v<T> / 4;
     const T s = r * std::sqrt(2 - r * r);
     return {std::copysign(s * std::cos(phi), a), std::copysign(s * std::sin(phi), b),
             std::copysign(1 - r * r, inside)};
   }
   Xy<T> to_square(const Xyz<T>& w) const {
     const T r = std::sqrt(std::max(T(0), 1 - std::abs(w.z)));
-    const T turn = std::atan2(std::abs(w.y), std::abs(w.x)) * 2 / kPi<T>;
+    const T turn = std::atan2(std::abs(w.y), std::abs(w.x)) * 2 / pi_v<T>;
     T b = turn * r, a = r - b;
     if (w.z < 0 && fault != 3) {
       std::swap(a, b);
@@ -291,7 +291,7 @@ struct MapOctahedral {
     const Xy<T> p = to_square(w);
     const auto j = static_cast<std::size_t>(cell_of(p.y, size));
     const T density = at(rows[j].f, cell_of(p.x, size)) / marginal->integral;
-    return fault == 1 ? density : density / (4 * kPi<T>);
+    return fault == 1 ? density : density / (4 * pi_v<T>);
   }
 };
 

@@ -19,7 +19,7 @@ T sample_henyey_greenstein(T g, T u) {
 template <class T>
 T henyey_greenstein(T g, T cosine) {
   const T d = std::max(1 + g * g - 2 * g * cosine, T(1e-7));
-  return (1 - g * g) / (4 * kPi<T> * d * std::sqrt(d));
+  return (1 - g * g) / (4 * pi_v<T> * d * std::sqrt(d));
 }
 
 /// @source Henyey, Greenstein 1941; sampling as in Pharr et al. 2023, §11.3.1
@@ -31,10 +31,10 @@ struct HenyeyGreenstein {
 
   std::optional<Record<Xyz<T>, T>> sample(T u, T v) const {
     const T c = sample_henyey_greenstein(g, u);
-    const Xyz<T> local = around_z(1 - c, 2 * kPi<T> * v);
+    const Xyz<T> local = around_z(1 - c, 2 * pi_v<T> * v);
     const Xyz<T> w = fault == 3 ? local : frame.to_world(local);
     const T density = pdf(w);
-    if (fault == 4) return Record<Xyz<T>, T>{w, density * 4 * kPi<T>, T(1)};
+    if (fault == 4) return Record<Xyz<T>, T>{w, density * 4 * pi_v<T>, T(1)};
     return Record<Xyz<T>, T>{w, density, fault == 5 ? value(w) : value(w) / density};
   }
   T pdf(const Xyz<T>& w) const {
@@ -53,7 +53,7 @@ struct DoubleHenyeyGreenstein {
   Frame<T> frame;
 
   Xyz<T> lobe(T g, T u, T v) const {
-    return frame.to_world(around_z(1 - sample_henyey_greenstein(g, u), 2 * kPi<T> * v));
+    return frame.to_world(around_z(1 - sample_henyey_greenstein(g, u), 2 * pi_v<T> * v));
   }
   std::optional<Record<Xyz<T>, T>> sample(T u, T v) const {
     const bool first = u < share;
@@ -90,11 +90,11 @@ struct Rayleigh {
     const T q = 2 * (2 * u - 1);
     const T a = std::cbrt(std::abs(q) + std::sqrt(q * q + 1));  // of |q|, or it cancels for q < 0
     const T c = std::copysign(std::clamp(a - 1 / a, T(0), T(1)), q);
-    return frame.to_world(around_z(1 - c, 2 * kPi<T> * v));
+    return frame.to_world(around_z(1 - c, 2 * pi_v<T> * v));
   }
   T pdf(const Xyz<T>& w) const {
     const T c = dot(w, frame.z);
-    return 3 * (1 + c * c) / ((fault == 1 ? 8 : 16) * kPi<T>);
+    return 3 * (1 + c * c) / ((fault == 1 ? 8 : 16) * pi_v<T>);
   }
 };
 
@@ -108,11 +108,11 @@ struct SchlickPhase {
 
   Xyz<T> sample(T u, T v) const {
     const T c = (2 * u + k - 1) / (2 * k * u - k + 1);
-    return frame.to_world(around_z(1 - c, 2 * kPi<T> * v));
+    return frame.to_world(around_z(1 - c, 2 * pi_v<T> * v));
   }
   T pdf(const Xyz<T>& w) const {
     const T d = 1 - (fault == 1 ? -k : k) * dot(w, frame.z);
-    return (1 - k * k) / (4 * kPi<T> * d * d);
+    return (1 - k * k) / (4 * pi_v<T> * d * d);
   }
 };
 
@@ -127,7 +127,7 @@ struct VonMisesFisher {
 
   Xyz<T> sample(T u, T v) const {
     T away = -std::log1p(u * std::expm1(-2 * kappa)) / kappa;
-    const T phi = 2 * kPi<T> * v;
+    const T phi = 2 * pi_v<T> * v;
     if (fault == 4) {
       const T c = 1 + std::log(1 - u * (1 - std::exp(-2 * kappa))) / kappa;
       const T s = std::sqrt(1 - c * c);
@@ -138,10 +138,10 @@ struct VonMisesFisher {
   }
   T pdf(const Xyz<T>& w) const {
     if (fault == 1) {
-      return kappa / (4 * kPi<T> * std::sinh(kappa)) * std::exp(kappa * dot(w, frame.z));
+      return kappa / (4 * pi_v<T> * std::sinh(kappa)) * std::exp(kappa * dot(w, frame.z));
     }
-    if (fault == 4) return kappa / (2 * kPi<T>)*std::exp(kappa * (dot(w, frame.z) - 1));
-    const T norm = kappa / ((fault == 2 ? 4 : 2) * kPi<T> * -std::expm1(-2 * kappa));
+    if (fault == 4) return kappa / (2 * pi_v<T>)*std::exp(kappa * (dot(w, frame.z) - 1));
+    const T norm = kappa / ((fault == 2 ? 4 : 2) * pi_v<T> * -std::expm1(-2 * kappa));
     return norm * std::exp(-kappa * one_minus_dot(w, frame.z));
   }
 };
@@ -238,7 +238,7 @@ struct TransformedCosine {
   T m11, m13, m22, m31;  ///< rows (m11, 0, m13), (0, m22, 0), (m31, 0, 1)
 
   Xyz<T> sample(T u, T v) const {
-    const T r = std::sqrt(u), phi = 2 * kPi<T> * v;
+    const T r = std::sqrt(u), phi = 2 * pi_v<T> * v;
     const Xyz<T> o{r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)};
     return normalized(Xyz<T>{m11 * o.x + m13 * o.z, m22 * o.y, m31 * o.x + o.z});
   }
@@ -248,8 +248,8 @@ struct TransformedCosine {
     const T l = length(o);
     if (!(o.z > 0)) return 0;
     const T cosine = o.z / l;
-    if (fault == 2) return 1 / (kPi<T> * std::abs(minor * m22) * l * l * l);
-    return cosine / kPi<T> / ((fault == 1 ? T(1) : std::abs(minor * m22)) * l * l * l);
+    if (fault == 2) return 1 / (pi_v<T> * std::abs(minor * m22) * l * l * l);
+    return cosine / pi_v<T> / ((fault == 1 ? T(1) : std::abs(minor * m22)) * l * l * l);
   }
 };
 

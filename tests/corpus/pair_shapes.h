@@ -14,12 +14,12 @@ struct DiskPolar {
   T radius;
 
   Xy<T> sample(T u, T v) const {
-    const T r = radius * (fault == 1 ? u : std::sqrt(u)), phi = 2 * kPi<T> * v;
+    const T r = radius * (fault == 1 ? u : std::sqrt(u)), phi = 2 * pi_v<T> * v;
     return {r * std::cos(phi), r * std::sin(phi)};
   }
   T pdf(const Xy<T>& p) const {
     if (!(p.x * p.x + p.y * p.y <= radius * radius)) return 0;
-    const T area = kPi<T> * (fault == 2 ? T(1) : radius * radius);
+    const T area = pi_v<T> * (fault == 2 ? T(1) : radius * radius);
     return fault == 3 ? area : 1 / area;
   }
 };
@@ -36,13 +36,13 @@ struct DiskConcentric {
     const bool wide = std::abs(a) > std::abs(b);
     T r = radius * (wide ? a : b);
     if (fault == 1) r = std::copysign(radius * std::sqrt(std::abs(wide ? a : b)), r);
-    const T phi = wide ? kPi<T> / 4 * (b / a) : kPi<T> / 2 - kPi<T> / 4 * (a / b);
+    const T phi = wide ? pi_v<T> / 4 * (b / a) : pi_v<T> / 2 - pi_v<T> / 4 * (a / b);
     return {r * std::cos(phi), r * std::sin(phi)};
   }
   T pdf(const Xy<T>& p) const {
     const T r = std::sqrt(p.x * p.x + p.y * p.y);
     if (!(r <= radius)) return 0;
-    return fault == 2 ? 1 / (2 * kPi<T> * radius * r) : 1 / (kPi<T> * radius * radius);
+    return fault == 2 ? 1 / (2 * pi_v<T> * radius * r) : 1 / (pi_v<T> * radius * radius);
   }
 };
 
@@ -87,15 +87,15 @@ struct Ellipse {
   T a, b;
 
   Xyz<T> sample(T u, T v) const {
-    const T r = std::sqrt(u), phi = 2 * kPi<T> * v;
+    const T r = std::sqrt(u), phi = 2 * pi_v<T> * v;
     return {a * r * std::cos(phi), b * r * std::sin(phi), 0};
   }
   T pdf(const Xyz<T>& p) const {
     const T x = p.x / a, y = p.y / b;
     if (!(x * x + y * y <= 1)) return 0;
-    if (fault == 1) return 1 / (kPi<T> * a * a);
-    if (fault == 2) return kPi<T> * a * b;
-    return 1 / (kPi<T> * a * b);
+    if (fault == 1) return 1 / (pi_v<T> * a * a);
+    if (fault == 2) return pi_v<T> * a * b;
+    return 1 / (pi_v<T> * a * b);
   }
 };
 
@@ -121,14 +121,14 @@ struct Cylinder {
   T radius, height;
 
   Xyz<T> sample(T u, T v) const {
-    const T phi = 2 * kPi<T> * u;
+    const T phi = 2 * pi_v<T> * u;
     const T z = height * (fault == 2 ? std::sqrt(v) : v);
     return {radius * std::cos(phi), radius * std::sin(phi), z};
   }
   T pdf(const Xyz<T>& p) const {
     if (!(p.z >= 0 && p.z <= height)) return 0;
-    return fault == 1 ? 1 / (kPi<T> * radius * radius * height)
-                      : 1 / (2 * kPi<T> * radius * height);
+    return fault == 1 ? 1 / (pi_v<T> * radius * radius * height)
+                      : 1 / (2 * pi_v<T> * radius * height);
   }
 };
 
@@ -153,7 +153,7 @@ struct Aperture {
   int fault;
   int blades;
 
-  T sector_angle() const { return 2 * kPi<T> / static_cast<T>(blades); }
+  T sector_angle() const { return 2 * pi_v<T> / static_cast<T>(blades); }
   Xy<T> sample(T u, T v) const {
     const T scaled = u * static_cast<T>(blades);
     const int k = std::min(static_cast<int>(scaled), blades - 1);
@@ -166,13 +166,13 @@ struct Aperture {
   T pdf(const Xy<T>& p) const {
     // In the polygon where the distance along the sector's middle is within the blade's.
     T phi = std::atan2(p.y, p.x);
-    if (phi < 0) phi += 2 * kPi<T>;
+    if (phi < 0) phi += 2 * pi_v<T>;
     const T half = sector_angle() / 2;
     const T from_middle = phi - (std::floor(phi / sector_angle()) + T(0.5)) * sector_angle();
     const T along = std::sqrt(p.x * p.x + p.y * p.y) * std::cos(from_middle);
     if (!(along <= std::cos(half))) return 0;
     const T area = static_cast<T>(blades) * std::sin(half) * std::cos(half);
-    return fault == 3 ? 1 / kPi<T> : 1 / area;
+    return fault == 3 ? 1 / pi_v<T> : 1 / area;
   }
 };
 
@@ -260,7 +260,7 @@ struct GaussianRetried {
   Xy<T> sample(Random& random) const {
     for (;;) {
       const T r = T(0.3) * std::sqrt(-2 * std::log(1 - verify::uniform<T>(random)));
-      const T phi = 2 * kPi<T> * verify::uniform<T>(random);
+      const T phi = 2 * pi_v<T> * verify::uniform<T>(random);
       const Xy<T> p{T(0.5) + r * std::cos(phi), T(0.6) + r * std::sin(phi)};
       if (p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1) return p;
       if (fault == 2) return {std::clamp(p.x, T(0), T(1)), std::clamp(p.y, T(0), T(1))};
@@ -273,7 +273,7 @@ struct GaussianRetried {
   T pdf(const Xy<T>& p) const {
     if (!(p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1)) return 0;
     const T x = (p.x - T(0.5)) / T(0.3), y = (p.y - T(0.6)) / T(0.3);
-    const T density = std::exp(-(x * x + y * y) / 2) / (2 * kPi<T> * T(0.09));
+    const T density = std::exp(-(x * x + y * y) / 2) / (2 * pi_v<T> * T(0.09));
     return fault == 1 ? density : density / (inside(T(0.5)) * inside(T(0.6)));
   }
 };

@@ -27,8 +27,7 @@ using Pair = verify::SamplingPair;
 using Random = verify::Random;
 using Kind = verify::CauseKind;
 
-template <class T>
-inline constexpr T kPi = std::numbers::pi_v<T>;
+using std::numbers::pi_v;
 
 template <class T>
 struct Xy {

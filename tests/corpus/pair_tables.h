@@ -100,7 +100,7 @@ struct SmoothMap {
   SmoothMap(int which, int w, int h) : fault(which) {
     std::vector<T> values = measured_values<T>(w + 1, h + 1, true);
     for (int k = 0; k < (w + 1) * (h + 1); ++k) {
-      ref(values, k) *= std::sin(kPi<T> * static_cast<T>(k / (w + 1)) / static_cast<T>(h));
+      ref(values, k) *= std::sin(pi_v<T> * static_cast<T>(k / (w + 1)) / static_cast<T>(h));
     }
     for (T& v : values) v = std::max(v, T(0));  // sin π in float is below 0
     table.emplace(which > 2 ? which - 2 : 0, w + 1, h + 1, std::move(values));
@@ -113,8 +113,8 @@ struct SmoothMap {
     const T sine = std::sqrt(w.x * w.x + w.y * w.y);
     if (!(sine > 0)) return 0;
     Xy<T> p = to_latitude(w);
-    p.y = std::atan2(sine, w.z) / kPi<T>;  // acos is 0 within 3e-4 of the pole in float
-    const T density = table->pdf(p) / (2 * kPi<T> * kPi<T>);
+    p.y = std::atan2(sine, w.z) / pi_v<T>;  // acos is 0 within 3e-4 of the pole in float
+    const T density = table->pdf(p) / (2 * pi_v<T> * pi_v<T>);
     return fault == 1 ? density : fault == 2 ? density * sine : density / sine;
   }
 };
@@ -131,16 +131,16 @@ struct MeasuredLobe {
 
   Xyz<T> sample(T u, T v) const {
     const Xy<T> p = table.sample(u, v);
-    const T theta = kPi<T> / 2 * p.x * p.x, phi = 2 * kPi<T> * p.y;
+    const T theta = pi_v<T> / 2 * p.x * p.x, phi = 2 * pi_v<T> * p.y;
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
   }
   T pdf(const Xyz<T>& w) const {
     const T sine = std::sqrt(w.x * w.x + w.y * w.y);
     if (!(w.z >= 0 && sine > 0)) return 0;
-    const T theta = std::atan2(sine, w.z), turn = std::atan2(w.y, w.x) / (2 * kPi<T>);
-    const T x = std::min(std::sqrt(2 * theta / kPi<T>), T(1));
+    const T theta = std::atan2(sine, w.z), turn = std::atan2(w.y, w.x) / (2 * pi_v<T>);
+    const T x = std::min(std::sqrt(2 * theta / pi_v<T>), T(1));
     const T density = table.pdf({x, turn < 0 ? turn + 1 : turn});
-    return density / (2 * kPi<T> * kPi<T> * (fault == 1 ? T(1) : x) * (fault == 2 ? T(1) : sine));
+    return density / (2 * pi_v<T> * pi_v<T> * (fault == 1 ? T(1) : x) * (fault == 2 ? T(1) : sine));
   }
 };
 

@@ -69,7 +69,7 @@ TEST(BadGaussian, TheLargestWeightGrowsWithN) {
   // of the largest |x|, whose median has P(|x| ≤ m)^N = ½.
   const analytic::Integral1d integral = analytic::bad_gaussian_line();
   const EstimatorCase c = case_named(integral, "technique 1 alone");
-  constexpr int kReplicates = 200;
+  constexpr int kRepeats = 200;
   constexpr double kSd = 0.6;
   double previous = 0;
   verify::Random random(check_seed("largest weight"));
@@ -78,12 +78,12 @@ TEST(BadGaussian, TheLargestWeightGrowsWithN) {
     const double x = kSd * boost::math::quantile(complement(boost::math::normal(), tail));
     const double median = kSd * std::exp(x * x * (1 / (kSd * kSd) - 1) / 2);
     int above = 0;
-    for (int r = 0; r < kReplicates; ++r) {
+    for (int r = 0; r < kRepeats; ++r) {
       double largest = 0;
       for (int k = 0; k < n; ++k) largest = std::max(largest, c.draw(random));
       above += largest > median;
     }
-    EXPECT_GT(coin_p_value(above, kReplicates), kLevel) << n << ' ' << above;
+    EXPECT_GT(coin_p_value(above, kRepeats), kLevel) << n << ' ' << above;
     EXPECT_GT(median, 3 * previous) << n;  // N^(1 − σp²/σf²) = N^0.64: 4.4 for ten times as many
     previous = median;
   }

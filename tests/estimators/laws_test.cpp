@@ -21,9 +21,9 @@ using analytic::Moments;
 using analytic::WeightRule;
 using Kind = WeightRule::Kind;
 
-const std::vector<WeightRule> kRules = {{Kind::balance, 0},  {Kind::power, 2},
-                                        {Kind::power, 1.3},  {Kind::power, 8},
-                                        {Kind::cutoff, 0.1}, {Kind::maximum, 0}};
+const std::vector<WeightRule> kWeightRules = {{Kind::balance, 0},  {Kind::power, 2},
+                                              {Kind::power, 1.3},  {Kind::power, 8},
+                                              {Kind::cutoff, 0.1}, {Kind::maximum, 0}};
 
 std::vector<std::vector<int>> some_counts(const Integral1d& integral) {
   const std::size_t m = integral.densities.size();
@@ -63,7 +63,7 @@ TEST(Laws, NoHeuristicBeatsBalanceByMoreThanVeachsBound) {
   for (const Integral1d& integral : known_integrals()) {
     for (const auto& counts : some_counts(integral)) {
       const double balance = balance_variance(integral, counts);
-      for (const WeightRule& rule : kRules) {
+      for (const WeightRule& rule : kWeightRules) {
         EXPECT_LE(balance - multi_sample_moments(integral, rule, counts).variance,
                   veach_bound(integral, counts))
             << integral.name;
@@ -135,7 +135,7 @@ TEST(Laws, OptimalWeightsBeatEveryHeuristic) {
     for (const auto& counts : some_counts(integral)) {
       const double optimal =
           control_variate_moments(integral, counts, optimal_alpha(integral, counts)).variance;
-      for (const WeightRule& rule : kRules) {
+      for (const WeightRule& rule : kWeightRules) {
         EXPECT_LE(optimal, multi_sample_moments(integral, rule, counts).variance * (1 + 1e-9))
             << integral.name;
       }
@@ -147,7 +147,7 @@ TEST(Laws, FixedCountsNeverHaveMoreVarianceThanRandomSelection) {
   for (const Integral1d& integral : known_integrals()) {
     for (const auto& counts : some_counts(integral)) {
       const std::vector<double> selection = shares(counts);
-      for (const WeightRule& rule : kRules) {
+      for (const WeightRule& rule : kWeightRules) {
         const double fixed = multi_sample_moments(integral, rule, counts).variance;
         const double random = one_sample_moments(integral, rule, selection).variance / sum(counts);
         EXPECT_LE(fixed, random * (1 + 1e-10)) << integral.name;
@@ -160,8 +160,8 @@ TEST(Laws, BalanceIsTheBestOneSampleHeuristic) {
   for (const Integral1d& integral : known_integrals()) {
     for (const auto& counts : some_counts(integral)) {
       const std::vector<double> selection = shares(counts);
-      const double balance = one_sample_moments(integral, kRules[0], selection).variance;
-      for (const WeightRule& rule : kRules) {
+      const double balance = one_sample_moments(integral, kWeightRules[0], selection).variance;
+      for (const WeightRule& rule : kWeightRules) {
         EXPECT_LE(balance, one_sample_moments(integral, rule, selection).variance * (1 + 1e-10))
             << integral.name;
       }
@@ -178,7 +178,7 @@ TEST(Laws, TheNaiveAverageInheritsTheWorstVarianceAndTheHeuristicsDoNot) {
   // A third of each sample: a ninth of each variance.
   EXPECT_GE(naive_average_moments(integral).variance, worst / 9);
   const std::vector<int> counts(3, 1);
-  for (const WeightRule& rule : kRules) {
+  for (const WeightRule& rule : kWeightRules) {
     EXPECT_LE(multi_sample_moments(integral, rule, counts).variance, worst / 50);
   }
 }

@@ -7,7 +7,6 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <regex>
 #include <stdexcept>
@@ -41,11 +40,6 @@ PageInput sample_input() {
   input.results.tables = {sample_table()};
   input.images = {{"furnace_sphere", "mis, power", 1, 1, {0.5f, 0.25f, 0.125f}}};
   return input;
-}
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 /// The text between two others, the first time they occur.

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 #include <plumbline_tests/support.h>
 
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
 #include <thread>
@@ -16,11 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using reports::ResultLog;
 using reports::Results;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 verify::CheckResult check_named(const std::string& subject) {
   verify::CheckResult check = sample_check();

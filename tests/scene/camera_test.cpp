@@ -16,14 +16,6 @@ using renderer::CameraDescription;
 using renderer::SceneDescription;
 using renderer::Vec3d;
 
-constexpr double kRounding = 1e-14;
-
-void expect_near(const Vec3d& actual, const Vec3d& expected) {
-  EXPECT_NEAR(actual.x, expected.x, kRounding);
-  EXPECT_NEAR(actual.y, expected.y, kRounding);
-  EXPECT_NEAR(actual.z, expected.z, kRounding);
-}
-
 SceneDescription load_sensor(const std::string& properties, const std::string& film = "") {
   return load_text(R"(<scene version="3.0.0"><sensor type="perspective">)" + properties +
                    R"(<film type="hdrfilm"><rfilter type="box"/>)" + film +

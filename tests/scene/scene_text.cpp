@@ -1,5 +1,6 @@
 #include "scene_text.h"
 
+#include <gtest/gtest.h>
 #include <plumbline_tests/support.h>
 
 #include <plumbline/renderer/core/errors.h>
@@ -39,6 +40,12 @@ std::string refusal_of_text(const std::string& text,
                             const std::map<std::string, std::string>& overrides) {
   const ScratchDirectory directory;
   return refusal_of_file(directory.write("scene.xml", text), overrides);
+}
+
+void expect_near(const renderer::Vec3d& actual, const renderer::Vec3d& expected) {
+  EXPECT_NEAR(actual.x, expected.x, kRounding);
+  EXPECT_NEAR(actual.y, expected.y, kRounding);
+  EXPECT_NEAR(actual.z, expected.z, kRounding);
 }
 
 }  // namespace plumbline::tests

@@ -34,6 +34,10 @@ inline const renderer::Bsdf& bsdf_of(const renderer::SceneDescription& scene, st
   return dynamic_cast<const renderer::BsdfSet&>(*scene.bsdfs).alternative(index);
 }
 
+/// Of coordinates around 10, after a few operations in double.
+inline constexpr double kRounding = 1e-14;
+void expect_near(const renderer::Vec3d& actual, const renderer::Vec3d& expected);
+
 /// What load_scene says of a file with that text, the directory left out: "scene.xml:3: why".
 /// Empty if it takes the file.
 std::string refusal_of_text(const std::string& text,

@@ -16,14 +16,6 @@ using renderer::SceneDescription;
 using renderer::SphereShape;
 using renderer::Vec3d;
 
-constexpr double kRounding = 1e-14;  // of coordinates around 10, after a few operations in double
-
-void expect_near(const Vec3d& actual, const Vec3d& expected) {
-  EXPECT_NEAR(actual.x, expected.x, kRounding);
-  EXPECT_NEAR(actual.y, expected.y, kRounding);
-  EXPECT_NEAR(actual.z, expected.z, kRounding);
-}
-
 template <class Shape>
 Shape only_shape(const SceneDescription& scene) {
   EXPECT_EQ(scene.shapes.size(), 1u);

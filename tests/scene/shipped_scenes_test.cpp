@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -35,11 +34,6 @@ TEST(ShippedScenes, AreAllTaken) {
   for (const auto& file : files) {
     EXPECT_NO_THROW(renderer::load_scene(file)) << file;
   }
-}
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 TEST(ShippedScenes, AreThereForPbrtWhereItHasTheMaterials) {

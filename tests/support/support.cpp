@@ -158,10 +158,12 @@ std::filesystem::path ScratchDirectory::write(std::string_view name,
   return file;
 }
 
-std::string ScratchDirectory::read(std::string_view name) const {
-  std::ifstream in(path_ / name, std::ios::binary);
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
+
+std::string ScratchDirectory::read(std::string_view name) const { return text_of(path_ / name); }
 
 std::string ScratchDirectory::listing() const {
   std::set<std::string> names;

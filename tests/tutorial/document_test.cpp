@@ -2,8 +2,6 @@
 #include <plumbline_tests/support.h>
 #include <stdio.h>
 
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 #include <vector>
@@ -11,11 +9,6 @@
 /// docs/adding_a_bsdf.md shows what is compiled and what is printed, and nothing else.
 namespace plumbline::tests {
 namespace {
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 struct Block {
   std::string source;  ///< file it is from, as the comment before it says; empty without one

@@ -12,7 +12,7 @@ namespace {
 
 using tests::expect_verdict;
 
-constexpr float kPi = std::numbers::pi_v<float>;
+using std::numbers::pi_v;
 
 /// A vector class as another project has it.
 struct Direction {
@@ -30,11 +30,11 @@ class Indexed {
 };
 
 std::optional<Direction> cosine(float u, float v) {
-  const float radius = std::sqrt(u), phi = 2 * kPi * v;
+  const float radius = std::sqrt(u), phi = 2 * pi_v<float> * v;
   return Direction{radius * std::cos(phi), radius * std::sin(phi), std::sqrt(1 - u)};
 }
 
-float cosine_pdf(const Direction& w) { return w.z > 0 ? w.z / kPi : 0; }
+float cosine_pdf(const Direction& w) { return w.z > 0 ? w.z / pi_v<float> : 0; }
 
 ContractOptions options(const char* subject) {
   ContractOptions o;
@@ -127,14 +127,14 @@ TEST(ChiSquare, SeesALobeWeightOfFiftyOnePercent) {
   const float k = 1e4f;
   const auto lobe_pdf = [k](const Direction& w) {
     const float h = (w.x * w.x + w.y * w.y) / (1 + std::abs(w.z));
-    return w.z > 0 ? k / (2 * kPi) * std::exp(-k * h) : 0.0f;
+    return w.z > 0 ? k / (2 * pi_v<float>)*std::exp(-k * h) : 0.0f;
   };
   const auto density = [=](float weight) {
     return [=](const Direction& w) { return weight * lobe_pdf(w) + (1 - weight) * cosine_pdf(w); };
   };
   const auto half_and_half = [k](float u, float v) -> std::optional<Direction> {
     if (v < 0.5f) return cosine(u, 2 * v);
-    const float h = -std::log1p(-u) / k, phi = 2 * kPi * (2 * v - 1);
+    const float h = -std::log1p(-u) / k, phi = 2 * pi_v<float> * (2 * v - 1);
     const float radius = std::sqrt(h * (2 - h));
     return Direction{radius * std::cos(phi), radius * std::sin(phi), 1 - h};
   };

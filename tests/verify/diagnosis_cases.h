@@ -8,6 +8,7 @@
 #include <deque>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <plumbline/verify/bsdf.h>
@@ -68,6 +69,25 @@ inline Cause cause_of(const SamplingPair& pair, std::uint64_t seed) {
 
 inline FaultyCase of(std::string name, CauseKind right, const SamplingPair& pair) {
   return {std::move(name), right, [pair](std::uint64_t seed) { return cause_of(pair, seed); }};
+}
+
+/// From the front at these angles [°], held to neither reciprocity nor energy.
+inline BsdfOptions from(std::vector<double> angles) {
+  BsdfOptions o;
+  o.angles = std::move(angles);
+  o.back = false;
+  o.reciprocal = false;
+  o.conserves_energy = false;
+  return o;
+}
+
+inline FaultyCase of(std::string name, CauseKind right, ErasedBsdf b,
+                     BsdfOptions options = from({30, 60, 75})) {
+  return {std::move(name), right, [b, options](std::uint64_t seed) {
+            BsdfOptions o = options;
+            o.contract.seed = seed;
+            return cause_of(b, o);
+          }};
 }
 
 inline void expect_named(const std::vector<FaultyCase>& cases) {

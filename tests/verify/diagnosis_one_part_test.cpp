@@ -10,24 +10,11 @@
 namespace plumbline::verify {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
-BsdfOptions from(std::vector<double> angles) {
-  BsdfOptions o;
-  o.angles = std::move(angles);
-  o.back = false;
-  o.reciprocal = false;
-  o.conserves_energy = false;
-  return o;
-}
-
-FaultyCase of(std::string name, CauseKind right, ErasedBsdf b,
-              BsdfOptions options = from({20, 50, 70})) {
-  return {std::move(name), right, [b, options](std::uint64_t seed) {
-            BsdfOptions o = options;
-            o.contract.seed = seed;
-            return cause_of(b, o);
-          }};
+FaultyCase of_part(std::string name, CauseKind right, ErasedBsdf b,
+                   BsdfOptions options = from({20, 50, 70})) {
+  return of(std::move(name), right, std::move(b), std::move(options));
 }
 
 /// What the sample states follows pdf(), and no weight is stated.
@@ -71,7 +58,7 @@ ErasedBsdf two_ways() {
     if (!(u[2] < upwards(m.visible_normal(wo, u[0], u[1])))) record->x[2] = -record->x[2];
     return record;
   };
-  b.eval = [](const Vec3&, const Vec3&) { return gray(1 / kPi); };
+  b.eval = [](const Vec3&, const Vec3&) { return gray(1 / pi); };
   return b;
 }
 
@@ -102,12 +89,12 @@ std::vector<FaultyCase> parts() {
   const auto other_roughness = [](const Vec3& wo, const Vec3& wi) {
     return three_pdf(wo, wi, 1, 1, 0) + 0.2 * RoughMirror{0.36}.pdf(wo, wi);
   };
-  return {
-      of("no Jacobian in one of three", K::half_vector_jacobian, of_three(1, 0, 1)),
-      of("no G1 in one of three", K::masking, of_three(0, 1, 1)),
-      of("1/π missing in one of three", K::constant, of_three(0, 0, kPi)),
-      of("root missing in one of three", K::radius, with_pdf(no_root, all)),
-      of("alpha squared in one of three", K::roughness, with_pdf(three_lobes(), other_roughness))};
+  return {of_part("no Jacobian in one of three", K::half_vector_jacobian, of_three(1, 0, 1)),
+          of_part("no G1 in one of three", K::masking, of_three(0, 1, 1)),
+          of_part("1/π missing in one of three", K::constant, of_three(0, 0, pi)),
+          of_part("root missing in one of three", K::radius, with_pdf(no_root, all)),
+          of_part("alpha squared in one of three", K::roughness,
+                  with_pdf(three_lobes(), other_roughness))};
 }
 
 std::vector<FaultyCase> ways() {
@@ -118,9 +105,9 @@ std::vector<FaultyCase> ways() {
     return (2 * dot_of(wo, h) * h[2] - wo[2]) * (1 - upwards(h));  // of wi
   };
   const BsdfOptions options = from({20, 50});
-  return {of("two ways without their probabilities", K::lobe_probability, two_ways_with(one, one),
-             options),
-          of("two ways, a cosine in one", K::cosine, two_ways_with(up, by_cosine), options)};
+  return {of_part("two ways without their probabilities", K::lobe_probability,
+                  two_ways_with(one, one), options),
+          of_part("two ways, a cosine in one", K::cosine, two_ways_with(up, by_cosine), options)};
 }
 
 std::vector<FaultyCase> crowds() {
@@ -133,7 +120,7 @@ std::vector<FaultyCase> crowds() {
     if (!(wi[2] > 0)) wi = unit({wi[0], wi[1], 1e-3});
     return SampleRecord{wi, {}, RoughMirror{0.7}.pdf(wo, wi)};
   };
-  return {of("lifted to the horizon", K::not_rejected, lifted, from({60, 75})),
+  return {of_part("lifted to the horizon", K::not_rejected, lifted, from({60, 75})),
           of("negative beside the middle", K::not_finite,
              sampling_pair<double>(
                  "", Domain::interval(-1, 1), [](double u) { return std::cbrt(2 * u - 1); },

@@ -11,7 +11,7 @@
 namespace plumbline::verify {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 SamplingPair directions(std::function<Vec3(double, double)> sample,
                         std::function<double(const Vec3&)> pdf, Domain domain = Domain::sphere()) {
@@ -20,7 +20,7 @@ SamplingPair directions(std::function<Vec3(double, double)> sample,
 
 Vec3 around(double cosine, double turns) {
   const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-  return {sine * std::cos(2 * kPi * turns), sine * std::sin(2 * kPi * turns), cosine};
+  return {sine * std::cos(2 * pi * turns), sine * std::sin(2 * pi * turns), cosine};
 }
 
 /// A lobe ∝ ((1 + cosθ)/2)^n around ±z.
@@ -29,7 +29,7 @@ Vec3 lobe(double n, bool up, double u, double v) {
   return {w[0], w[1], up ? w[2] : -w[2]};
 }
 double lobe_pdf(double n, bool up, const Vec3& w) {
-  return (n + 1) / (4 * kPi) * std::pow((1 + (up ? w[2] : -w[2])) / 2, n);
+  return (n + 1) / (4 * pi) * std::pow((1 + (up ? w[2] : -w[2])) / 2, n);
 }
 
 constexpr double kUp = 0.3;
@@ -93,7 +93,7 @@ std::vector<FaultyCase> samplers() {
                           const double root = 1 - 9 * (1 - w[2] * w[2]);
                           if (w[2] < 0 || root < 0) return 0.0;
                           const double d = 3 * w[2] - std::sqrt(root);
-                          return d * d / (2 * kPi * 2 / 3);
+                          return d * d / (2 * pi * 2 / 3);
                         })));
   return list;
 }

@@ -10,7 +10,7 @@
 namespace plumbline::verify {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 SamplingPair directions(std::string name, std::function<Vec3(double, double)> sample,
                         std::function<double(const Vec3&)> pdf) {
@@ -22,26 +22,26 @@ std::vector<FaultyCase> points() {
   std::vector<FaultyCase> list;
   const auto sphere = [](double u, double v) {
     const double z = 1 - 2 * u, r = std::sqrt(1 - z * z);
-    return Vec3{r * std::cos(2 * kPi * v), r * std::sin(2 * kPi * v), z};
+    return Vec3{r * std::cos(2 * pi * v), r * std::sin(2 * pi * v), z};
   };
   list.push_back(of("uniform sphere as 1/(2π)", K::constant,
-                    directions("", sphere, [](const Vec3&) { return 1 / (2 * kPi); })));
+                    directions("", sphere, [](const Vec3&) { return 1 / (2 * pi); })));
   list.push_back(of("map without sinθ", K::sine,
                     directions(
                         "",
                         [](double u, double v) {
-                          const double t = kPi * u;
-                          return Vec3{std::sin(t) * std::cos(2 * kPi * v),
-                                      std::sin(t) * std::sin(2 * kPi * v), std::cos(t)};
+                          const double t = pi * u;
+                          return Vec3{std::sin(t) * std::cos(2 * pi * v),
+                                      std::sin(t) * std::sin(2 * pi * v), std::cos(t)};
                         },
-                        [](const Vec3&) { return 1 / (2 * kPi * kPi); })));
+                        [](const Vec3&) { return 1 / (2 * pi * pi); })));
   list.push_back(of("disk without the root", K::radius,
                     sampling_pair<Vec3>(
                         "", Domain::disk(),
                         [](double u, double v) {
-                          return Vec3{u * std::cos(2 * kPi * v), u * std::sin(2 * kPi * v), 0};
+                          return Vec3{u * std::cos(2 * pi * v), u * std::sin(2 * pi * v), 0};
                         },
-                        [](const Vec3&) { return 1 / kPi; })));
+                        [](const Vec3&) { return 1 / pi; })));
   list.push_back(of("triangle without the root", K::radius,
                     sampling_pair<Vec3>(
                         "", Domain::triangle(),
@@ -50,7 +50,7 @@ std::vector<FaultyCase> points() {
                         },
                         [](const Vec3&) { return 2.0; })));
   const auto hg = [](double c, double g) {
-    return (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * c, 1.5));
+    return (1 - g * g) / (4 * pi * std::pow(1 + g * g - 2 * g * c, 1.5));
   };
   list.push_back(of("g with the other sign", K::mirrored,
                     directions(
@@ -59,7 +59,7 @@ std::vector<FaultyCase> points() {
                           const double g = 0.6, q = (1 - g * g) / (1 - g + 2 * g * u);
                           const double c = (1 + g * g - q * q) / (2 * g);
                           const double s = std::sqrt(std::max(0.0, 1 - c * c));
-                          return Vec3{s * std::cos(2 * kPi * v), s * std::sin(2 * kPi * v), c};
+                          return Vec3{s * std::cos(2 * pi * v), s * std::sin(2 * pi * v), c};
                         },
                         [hg](const Vec3& w) { return hg(w[2], -0.6); })));
   // A table of 16 columns, looked up one column on.
@@ -111,9 +111,9 @@ std::vector<FaultyCase> points() {
                const bool up = u < 0.7;
                const double r = up ? u / 0.7 : (u - 0.7) / 0.3, s = std::sqrt(r);
                const double z = std::sqrt(1 - r);
-               return Vec3{s * std::cos(2 * kPi * v), s * std::sin(2 * kPi * v), up ? z : -z};
+               return Vec3{s * std::cos(2 * pi * v), s * std::sin(2 * pi * v), up ? z : -z};
              },
-             [](const Vec3& w) { return (w[2] > 0 ? 0.3 : 0.7) * std::abs(w[2]) / kPi; })));
+             [](const Vec3& w) { return (w[2] > 0 ? 0.3 : 0.7) * std::abs(w[2]) / pi; })));
   list.push_back(of("not folded", K::not_rejected,
                     sampling_pair<Vec3>(
                         "", Domain::triangle(),
@@ -140,7 +140,7 @@ std::vector<FaultyCase> points() {
                           }
                           return w;
                         },
-                        [](const Vec3&) { return 1 / (4 * kPi); })));
+                        [](const Vec3&) { return 1 / (4 * pi); })));
   return list;
 }
 
@@ -178,13 +178,11 @@ std::vector<FaultyCase> choices_and_numbers() {
   const auto cap = [axis](double u, double v) {
     const Vec3 s = unit(cross(axis, {1, 0, 0})), t = cross(axis, s);
     const double c = 1 - 0.3 * u, r = std::sqrt(std::max(0.0, 1 - c * c));
-    const double x = r * std::cos(2 * kPi * v), y = r * std::sin(2 * kPi * v);
+    const double x = r * std::cos(2 * pi * v), y = r * std::sin(2 * pi * v);
     return Vec3{c * axis[0] + x * s[0] + y * t[0], c * axis[1] + x * s[1] + y * t[1],
                 c * axis[2] + x * s[2] + y * t[2]};
   };
-  const auto even = [axis](const Vec3& w) {
-    return dot(w, axis) > 0.7 ? 1 / (2 * kPi * 0.3) : 0.0;
-  };
+  const auto even = [axis](const Vec3& w) { return dot(w, axis) > 0.7 ? 1 / (2 * pi * 0.3) : 0.0; };
   list.push_back(of("cap, number squared", K::radius,
                     directions(
                         "", [cap](double u, double v) { return cap(u * u, v); }, even)));

@@ -11,17 +11,8 @@
 namespace plumbline::verify {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 using Of2 = std::function<double(const Vec3&, const Vec3&)>;
-
-BsdfOptions from(std::vector<double> angles) {
-  BsdfOptions o;
-  o.angles = std::move(angles);
-  o.back = false;
-  o.reciprocal = false;
-  o.conserves_energy = false;
-  return o;
-}
 
 /// pdf() and the record's pdf times a factor, the weight left as it is.
 ErasedBsdf with_pdf_times(ErasedBsdf b, const Of2& factor) {
@@ -60,15 +51,6 @@ ErasedBsdf hidden(ErasedBsdf b) {
   return b;
 }
 
-FaultyCase of(std::string name, CauseKind right, ErasedBsdf b,
-              BsdfOptions options = from({30, 60, 75})) {
-  return {std::move(name), right, [b, options](std::uint64_t seed) {
-            BsdfOptions o = options;
-            o.contract.seed = seed;
-            return cause_of(b, o);
-          }};
-}
-
 double woh(const Vec3& wo, const Vec3& wi) { return dot_of(wo, half_vector(wo, wi)); }
 double g1(const Vec3& w, double a) { return RoughMirror{a}.masking(w); }
 
@@ -93,7 +75,7 @@ std::vector<FaultyCase> factors() {
   using K = CauseKind;
   return {
       of("twice", K::constant, with_pdf_times(m, [](auto&, auto&) { return 2.0; })),
-      of("1/π missing", K::constant, with_pdf_times(d, [](auto&, auto&) { return kPi; })),
+      of("1/π missing", K::constant, with_pdf_times(d, [](auto&, auto&) { return pi; })),
       of("odd constant", K::constant, with_pdf_times(m, [](auto&, auto&) { return 1.237; })),
       of("cosθi too many", K::cosine, with_pdf_times(m, [](auto&, auto& i) { return i[2]; })),
       of("cosθo missing", K::cosine, with_pdf_times(m, [](auto& o, auto&) { return o[2]; })),
@@ -229,9 +211,9 @@ std::vector<FaultyCase> values() {
           of("cosine twice in f and weight", K::value_cosine,
              both(mirror(), [](auto&, auto& i) { return i[2]; }), o),
           of("1/π missing in f", K::value_constant,
-             with_value_times(diffuse(), [](auto&, auto&) { return kPi; }), o),
+             with_value_times(diffuse(), [](auto&, auto&) { return pi; }), o),
           of("1/π missing in f and weight", K::value_constant,
-             both(diffuse(), [](auto&, auto&) { return kPi; }), o),
+             both(diffuse(), [](auto&, auto&) { return pi; }), o),
           of("G1 of wi missing in f", K::masking,
              both(mirror(), [](auto&, auto& i) { return 1 / g1(i, 0.3); }), o)};
 }

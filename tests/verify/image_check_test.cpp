@@ -45,7 +45,7 @@ Image render(std::uint64_t seed, int spp, Bias bias) {
 
 double unbiased(int, int) { return 1; }
 
-ImageOptions options(const char* subject, Verdict expected = Verdict::pass) {
+ImageOptions image_options(const char* subject, Verdict expected = Verdict::pass) {
   ImageOptions o;
   o.subject = subject;
   o.expected = expected;
@@ -54,7 +54,7 @@ ImageOptions options(const char* subject, Verdict expected = Verdict::pass) {
 }
 
 TEST(ImageCheck, PassesAnUnbiasedRenderAndProvesTheBound) {
-  const ImageOptions o = options("image/unbiased");
+  const ImageOptions o = image_options("image/unbiased");
   const ImageResult r = check_image(o, render(o.seed, 64, unbiased), exact());
   expect_verdict(r.check);
   EXPECT_LE(r.check.bound, r.check.tolerance);
@@ -63,12 +63,12 @@ TEST(ImageCheck, PassesAnUnbiasedRenderAndProvesTheBound) {
 }
 
 TEST(ImageCheck, FailsABiasOfTwoPercentEverywhere) {
-  const ImageOptions o = options("image/two percent", Verdict::fail);
+  const ImageOptions o = image_options("image/two percent", Verdict::fail);
   expect_verdict(check_image(o, render(o.seed, 64, [](int, int) { return 1.02; }), exact()).check);
 }
 
 TEST(ImageCheck, FailsATileWhoseBiasTheGlobalMeanHides) {
-  const ImageOptions o = options("image/tile", Verdict::fail);
+  const ImageOptions o = image_options("image/tile", Verdict::fail);
   // +20 % in one tile of 16 pixels, −20 % in another: the mean stays.
   const auto bias = [](int x, int y) {
     if (y / 16 != 2) return 1.0;
@@ -80,7 +80,7 @@ TEST(ImageCheck, FailsATileWhoseBiasTheGlobalMeanHides) {
 }
 
 TEST(ImageCheck, FailsASinglePixel) {
-  const ImageOptions o = options("image/pixel", Verdict::fail);
+  const ImageOptions o = image_options("image/pixel", Verdict::fail);
   const auto bias = [](int x, int y) { return x == 40 && y == 30 ? 4.0 : 1.0; };
   const ImageResult r = check_image(o, render(o.seed, 256, bias), exact());
   expect_verdict(r.check);
@@ -88,25 +88,25 @@ TEST(ImageCheck, FailsASinglePixel) {
 }
 
 TEST(ImageCheck, AgreesWithASecondRender) {
-  const ImageOptions o = options("image/second render");
+  const ImageOptions o = image_options("image/second render");
   expect_verdict(
       check_image(o, render(o.seed, 64, unbiased), render(o.seed + 1, 128, unbiased)).check);
 }
 
 TEST(ImageCheck, FailsASecondRenderThatIsOff) {
-  const ImageOptions o = options("image/second render off", Verdict::fail);
+  const ImageOptions o = image_options("image/second render off", Verdict::fail);
   expect_verdict(check_image(o, render(o.seed, 64, unbiased),
                              render(o.seed + 1, 128, [](int, int) { return 1.02; }))
                      .check);
 }
 
 TEST(ImageCheck, EstimatesTheNoiseWithoutAVarianceLayer) {
-  const ImageOptions o = options("image/no variance layer");
+  const ImageOptions o = image_options("image/no variance layer");
   Image image = render(o.seed, 64, unbiased);
   image.variance.clear();
   image.count.clear();
   expect_verdict(check_image(o, image, exact()).check);
-  const ImageOptions off = options("image/no variance layer, off", Verdict::fail);
+  const ImageOptions off = image_options("image/no variance layer, off", Verdict::fail);
   image = render(off.seed, 64, [](int, int) { return 1.02; });
   image.variance.clear();
   image.count.clear();
@@ -114,7 +114,7 @@ TEST(ImageCheck, EstimatesTheNoiseWithoutAVarianceLayer) {
 }
 
 TEST(ImageCheck, TheSameImageNeverDiffersFromItself) {
-  const ImageOptions o = options("image/itself");
+  const ImageOptions o = image_options("image/itself");
   const Image image = render(o.seed, 64, unbiased);
   expect_verdict(check_image(o, image, image).check);
 }
@@ -123,15 +123,15 @@ TEST(ImageCheck, TakesANoiselessImageForWhatItIs) {
   Image flat = exact();
   flat.variance.assign(flat.mean.size(), 0.0);
   flat.count.assign(flat.mean.size(), 64);
-  expect_verdict(check_image(options("image/noiseless"), flat, exact()).check);
+  expect_verdict(check_image(image_options("image/noiseless"), flat, exact()).check);
   for (double& v : flat.mean) v *= 1.001;
   expect_verdict(
-      check_image(options("image/noiseless but off", Verdict::fail), flat, exact()).check);
+      check_image(image_options("image/noiseless but off", Verdict::fail), flat, exact()).check);
 }
 
 TEST(ImageCheck, ProvesNothingFromPixelsThatNothingHasHit) {
   // Light hits one sample in 200: most of the pixels are black after 16, and none is wrong.
-  const ImageOptions o = options("image/rare hits", Verdict::inconclusive);
+  const ImageOptions o = image_options("image/rare hits", Verdict::inconclusive);
   Image image{kWidth, kHeight, {}, {}, {}}, reference = image;
   Random random(o.seed);
   for (int i = 0; i < kWidth * kHeight; ++i) {
@@ -164,7 +164,7 @@ Image rarely_lit(std::uint64_t seed, int spp, double rarity, double glow) {
 TEST(ImageCheck, ARenderThatSeldomHitsTheLightNeverDiffersFromOneThatAlwaysDoes) {
   for (const double rarity : {50.0, 1'000.0, 100'000.0}) {
     for (const double glow : {0.0, 0.1}) {
-      ImageOptions o = options("image/seldom hit against always hit", Verdict::inconclusive);
+      ImageOptions o = image_options("image/seldom hit against always hit", Verdict::inconclusive);
       o.seed += static_cast<std::uint64_t>(rarity * (1 + glow));
       o.tolerance = 1e-4;  // undecided: nothing is to fail
       const Image seldom = rarely_lit(o.seed, 64, rarity, glow);
@@ -178,34 +178,36 @@ TEST(ImageCheck, ARenderThatSeldomHitsTheLightNeverDiffersFromOneThatAlwaysDoes)
 TEST(ImageCheck, ABlackImageWithoutVarianceProvesNothing) {
   Image black = exact();
   black.mean.assign(black.mean.size(), 0.0);
-  expect_verdict(check_image(options("image/black", Verdict::inconclusive), black, exact()).check);
+  expect_verdict(
+      check_image(image_options("image/black", Verdict::inconclusive), black, exact()).check);
   // With as many samples as make zeros believable it is wrong.
   black.variance.assign(black.mean.size(), 0.0);
   black.count.assign(black.mean.size(), 1024);
-  expect_verdict(check_image(options("image/black for good", Verdict::fail), black, exact()).check);
+  expect_verdict(
+      check_image(image_options("image/black for good", Verdict::fail), black, exact()).check);
 }
 
 TEST(ImageCheck, NeverPassesAPixelThatIsNotFinite) {
-  const ImageOptions o = options("image/NaN", Verdict::fail);
+  const ImageOptions o = image_options("image/NaN", Verdict::fail);
   Image image = render(o.seed, 64, unbiased);
   image.mean[1234] = std::nan("");
   expect_verdict(check_image(o, image, exact()).check);
-  ImageOptions counted = options("image/samples not finite", Verdict::fail);
+  ImageOptions counted = image_options("image/samples not finite", Verdict::fail);
   counted.non_finite = 1;
   expect_verdict(check_image(counted, render(o.seed, 64, unbiased), exact()).check);
 }
 
 TEST(ImageCheck, PValuesOfAnUnbiasedRenderAreFlat) {
-  const ImageOptions o = options("image/flat histogram");
+  const ImageOptions o = image_options("image/flat histogram");
   const ImageResult r = check_image(o, render(o.seed, 256, unbiased), exact());
   EXPECT_GT(r.check.figure(Figure::histogram_p_value), ErrorBudget{}.fail_level());
 }
 
 TEST(ImageCheck, RefusesImagesThatDoNotMatch) {
   Image small{2, 2, {1, 1, 1, 1}, {}, {}};
-  EXPECT_THROW(check_image(options("i"), small, exact()), std::invalid_argument);
+  EXPECT_THROW(check_image(image_options("i"), small, exact()), std::invalid_argument);
   small.variance = {1};
-  EXPECT_THROW(check_image(options("i"), small, small), std::invalid_argument);
+  EXPECT_THROW(check_image(image_options("i"), small, small), std::invalid_argument);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ KnownBug of_pair(std::string id, std::string title, std::string cause, SamplingP
   return {std::move(id), std::move(title), std::move(cause), run};
 }
 
-ErasedBsdf coated() {
+ErasedBsdf coated_mirror() {
   return mixture(erased(Diffuse{}), erased(RoughMirror{0.3}), 0.4, [](const Vec3&) { return 0.4; });
 }
 
@@ -178,8 +178,8 @@ std::vector<KnownBug> known_bugs() {
           of_bsdf("B3", "half-vector pdf without 1/(4 wo·h)", "half-vector Jacobian", mirror,
                   without_half_vector_jacobian, looked_at({30, 60})),
           of_bsdf("B7", "sample() returns the chosen lobe's pdf", "pdf of the chosen lobe",
-                  coated(), pdf_of_the_chosen_lobe, looked_at({60})),
-          of_bsdf("B8", "weight of one lobe over the mixture's pdf", "chosen lobe", coated(),
+                  coated_mirror(), pdf_of_the_chosen_lobe, looked_at({60})),
+          of_bsdf("B8", "weight of one lobe over the mixture's pdf", "chosen lobe", coated_mirror(),
                   weight_of_the_chosen_lobe, looked_at({60})),
           of_bsdf("B13", "wo and wi swapped in eval and pdf", "exchanged", mirror, swapped,
                   looked_at({30, 60})),

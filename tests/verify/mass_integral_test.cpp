@@ -21,7 +21,7 @@ ContractOptions seeded(const std::string& name) {
   return options;
 }
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 // So many tests of one binary may miss the truth; of each less than once in 1e10.
 constexpr double kLevel = 1e-10;
 
@@ -62,7 +62,7 @@ TEST(MassIntegral, FitsWhatIsCubicInEachCoordinate) {
 TEST(MassIntegral, KeepsItsErrorAlongLinesOfAnyDirection) {
   for (const double slope : {0.0, 1e-3, 0.3, 1.0, 17.0}) {
     // Below the line t = 1/π + slope (s − ½), clipped to the square: by a fine midpoint rule in s.
-    const auto line = [=](double s) { return std::clamp(1 / kPi + slope * (s - 0.5), 0.0, 1.0); };
+    const auto line = [=](double s) { return std::clamp(1 / pi + slope * (s - 0.5), 0.0, 1.0); };
     double truth = 0;
     constexpr int kSteps = 1 << 20;
     for (int i = 0; i < kSteps; ++i) truth += line((i + 0.5) / kSteps) / kSteps;
@@ -75,10 +75,10 @@ TEST(MassIntegral, KeepsItsErrorOnDisksPolesAndSilhouettes) {
   const auto r2 = [](const Point2& p) {
     return std::pow(p[0] - 0.4, 2) + std::pow(p[1] - 0.55, 2);
   };
-  expect_known([&](const Point2& p) { return r2(p) < 0.09 ? 1.0 : 0.0; }, 0.09 * kPi, 2e-5, "disk");
+  expect_known([&](const Point2& p) { return r2(p) < 0.09 ? 1.0 : 0.0; }, 0.09 * pi, 2e-5, "disk");
   // The silhouette of a sphere: ∫ over r < R of 1/√(R² − r²) = 2π R.
   expect_known([&](const Point2& p) { return r2(p) < 0.09 ? 1 / std::sqrt(0.09 - r2(p)) : 0.0; },
-               2 * kPi * 0.3, 0.5, "silhouette");
+               2 * pi * 0.3, 0.5, "silhouette");
   // A pole as of a map without its sine: ∫ 1/√s = 2.
   expect_known([](const Point2& p) { return 1 / std::sqrt(p[0]); }, 2, 1e-4, "pole");
 }
@@ -174,7 +174,7 @@ SamplingPair lobe(double k, const Vec3& axis) {
   pair.sample = [=](const Uniforms& u) -> std::optional<SampleRecord> {
     // 1 − cosθ, written so that nothing cancels for narrow lobes.
     const double h = -std::log1p(-u[0] * -std::expm1(-2 * k)) / k;
-    const double radius = std::sqrt(h * (2 - h)), phi = 2 * kPi * u[1];
+    const double radius = std::sqrt(h * (2 - h)), phi = 2 * pi * u[1];
     Vec3 w;
     for (std::size_t i = 0; i < 3; ++i) {
       w[i] = axis[i] * (1 - h) + radius * (std::cos(phi) * a[i] + std::sin(phi) * b[i]);
@@ -186,7 +186,7 @@ SamplingPair lobe(double k, const Vec3& axis) {
     const double h =
         (std::pow(w[0] - axis[0], 2) + std::pow(w[1] - axis[1], 2) + std::pow(w[2] - axis[2], 2)) /
         2;
-    return k / (2 * kPi * -std::expm1(-2 * k)) * std::exp(-k * h);
+    return k / (2 * pi * -std::expm1(-2 * k)) * std::exp(-k * h);
   };
   return pair;
 }

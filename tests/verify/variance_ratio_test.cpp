@@ -22,7 +22,7 @@ std::vector<Moments> batches(std::uint64_t seed, auto distribution, int count = 
   return result;
 }
 
-VarianceRatioOptions options(const char* subject) {
+VarianceRatioOptions ratio_options(const char* subject) {
   VarianceRatioOptions o;
   o.subject = subject;
   o.seed = tests::check_seed(subject);
@@ -35,7 +35,7 @@ auto scaled(double scale) {
 }
 
 TEST(VarianceRatio, KeepsATrueClaim) {
-  VarianceRatioOptions o = options("ratio/true claim");
+  VarianceRatioOptions o = ratio_options("ratio/true claim");
   o.at_least = 3;
   const CheckResult r =
       check_variance_ratio(o, batches(o.seed, scaled(2)), batches(o.seed + 1, scaled(1)));
@@ -45,12 +45,12 @@ TEST(VarianceRatio, KeepsATrueClaim) {
 }
 
 TEST(VarianceRatio, BreaksAFalseClaim) {
-  VarianceRatioOptions o = options("ratio/false claim");
+  VarianceRatioOptions o = ratio_options("ratio/false claim");
   o.at_least = 6;
   o.expected = Verdict::fail;
   expect_verdict(
       check_variance_ratio(o, batches(o.seed, scaled(2)), batches(o.seed + 1, scaled(1))));
-  o = options("ratio/false claim from above");
+  o = ratio_options("ratio/false claim from above");
   o.at_most = 2;
   o.expected = Verdict::fail;
   expect_verdict(
@@ -58,7 +58,7 @@ TEST(VarianceRatio, BreaksAFalseClaim) {
 }
 
 TEST(VarianceRatio, SaysSoWhenItCannotTell) {
-  VarianceRatioOptions o = options("ratio/straddles");
+  VarianceRatioOptions o = ratio_options("ratio/straddles");
   o.at_least = 1;
   o.expected = Verdict::inconclusive;
   expect_verdict(
@@ -68,7 +68,7 @@ TEST(VarianceRatio, SaysSoWhenItCannotTell) {
 TEST(VarianceRatio, RefusesToJudgeATail) {
   // One sample that no other is like, in one batch. (Drawn from a Pareto distribution of index 1.2,
   // the largest batch carries less than a quarter in one run of a few dozen.)
-  VarianceRatioOptions o = options("ratio/one sample decides");
+  VarianceRatioOptions o = ratio_options("ratio/one sample decides");
   o.at_least = 1;
   o.expected = Verdict::inconclusive;
   auto a = batches(o.seed, scaled(1));
@@ -79,7 +79,7 @@ TEST(VarianceRatio, RefusesToJudgeATail) {
 }
 
 TEST(VarianceRatio, SharedSeedsNarrowTheInterval) {
-  VarianceRatioOptions o = options("ratio/paired");
+  VarianceRatioOptions o = ratio_options("ratio/paired");
   const auto a = batches(o.seed, scaled(1.1));
   const CheckResult paired = check_variance_ratio(o, a, batches(o.seed, scaled(1)));
   const CheckResult apart = check_variance_ratio(o, a, batches(o.seed + 1, scaled(1)));
@@ -89,7 +89,7 @@ TEST(VarianceRatio, SharedSeedsNarrowTheInterval) {
 }
 
 TEST(VarianceRatio, OfTheSameRunIsExactlyOne) {
-  VarianceRatioOptions o = options("ratio/the same run");
+  VarianceRatioOptions o = ratio_options("ratio/the same run");
   o.at_least = o.at_most = 1;
   const auto a = batches(o.seed, scaled(1));
   const CheckResult r = check_variance_ratio(o, a, a);
@@ -99,7 +99,7 @@ TEST(VarianceRatio, OfTheSameRunIsExactlyOne) {
 
 TEST(VarianceRatio, RefusesTooFewBatches) {
   const auto a = batches(1, scaled(1), 15);
-  EXPECT_THROW(check_variance_ratio(options("r"), a, a), std::invalid_argument);
+  EXPECT_THROW(check_variance_ratio(ratio_options("r"), a, a), std::invalid_argument);
 }
 
 }  // namespace

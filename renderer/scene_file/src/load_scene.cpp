@@ -41,11 +41,11 @@ void check_attributes(Node node) {
 }
 
 void check_children(Node parent, int depth) {
-  constexpr int kMaxDepth = 32;
+  constexpr int kMaxNesting = 32;
   for (const Node node : parent.children()) {
     check_kind(node);
     if (depth == 0 && node.previous_sibling()) refuse(node, "a file holds one <scene> only");
-    if (depth == kMaxDepth) refuse(node, "elements are nested deeper than {}", kMaxDepth);
+    if (depth == kMaxNesting) refuse(node, "elements are nested deeper than {}", kMaxNesting);
     check_attributes(node);
     check_children(node, depth + 1);
   }

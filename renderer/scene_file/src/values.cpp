@@ -10,9 +10,9 @@ namespace {
 constexpr double kShapeTolerance = 1e-5;
 
 std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r\n";
-  text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
-  return text.substr(0, text.find_last_not_of(kSpace) + 1);
+  constexpr std::string_view kWhite = " \t\r\n";
+  text.remove_prefix(std::min(text.find_first_not_of(kWhite), text.size()));
+  return text.substr(0, text.find_last_not_of(kWhite) + 1);
 }
 
 /// Numbers separated by spaces, or by commas with or without spaces.

@@ -62,13 +62,13 @@ struct YUpLinen {
   std::optional<Sampled<double>> sample(const V3<double>& wo, double u, double v) const {
     if (!(wo.y > 0)) return std::nullopt;
     const V3<double> inside = cosine_hemisphere(u, v), wi = fault == 1 ? inside : swap(inside);
-    return Sampled<double>{wi, 0.55, inside.z / kPi<double>};
+    return Sampled<double>{wi, 0.55, inside.z / pi_v<double>};
   }
   double pdf(const V3<double>& wo, const V3<double>& wi) const {
-    return wo.y > 0 && wi.y > 0 ? wi.y / kPi<double> : 0;
+    return wo.y > 0 && wi.y > 0 ? wi.y / pi_v<double> : 0;
   }
   double eval(const V3<double>& wo, const V3<double>& wi) const {
-    return wo.y > 0 && wi.y > 0 ? 0.55 / kPi<double> : 0;
+    return wo.y > 0 && wi.y > 0 ? 0.55 / pi_v<double> : 0;
   }
 };
 
@@ -79,19 +79,19 @@ struct ProjectedFelt {
 
   std::optional<Sampled<T>> sample(const V3<T>& wo, T u, T v) const {
     if (!(wo.z > 0)) return std::nullopt;
-    const V3<T> wi = spherical(1 - u, 2 * kPi<T> * v);
+    const V3<T> wi = spherical(1 - u, 2 * pi_v<T> * v);
     if (!(wi.z > 0)) return std::nullopt;
-    const T per_solid_angle = 1 / (2 * kPi<T>);
+    const T per_solid_angle = 1 / (2 * pi_v<T>);
     const T stated = fault == 1 ? per_solid_angle : per_solid_angle / wi.z;
     const T weight = eval(wo, wi) / per_solid_angle;
     return Sampled<T>{wi, fault == 2 ? weight : weight * wi.z, stated};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
-    return wo.z > 0 && wi.z > 0 ? 1 / (2 * kPi<T> * wi.z) : T(0);
+    return wo.z > 0 && wi.z > 0 ? 1 / (2 * pi_v<T> * wi.z) : T(0);
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    const T f = T(0.4) / kPi<T> * (1 + (1 - wo.z) * (1 - wi.z));
+    const T f = T(0.4) / pi_v<T> * (1 + (1 - wo.z) * (1 - wi.z));
     return fault == 2 ? f * wi.z : f;
   }
 };
@@ -107,11 +107,11 @@ struct TwoSidedFelt {
     return Sampled<T>{wi, T(0.65), pdf(wo, wi)};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
-    return wo.z * wi.z > 0 ? std::abs(wi.z) / kPi<T> : T(0);
+    return wo.z * wi.z > 0 ? std::abs(wi.z) / pi_v<T> : T(0);
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z * wi.z > 0)) return 0;
-    return T(0.65) / kPi<T> * (fault == 1 ? wi.z : std::abs(wi.z));
+    return T(0.65) / pi_v<T> * (fault == 1 ? wi.z : std::abs(wi.z));
   }
 };
 

@@ -35,10 +35,10 @@ struct Lampshade {
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     const T p = share(true);
-    return (wo.z * wi.z > 0 ? p : 1 - p) * std::abs(wi.z) / kPi<T>;
+    return (wo.z * wi.z > 0 ? p : 1 - p) * std::abs(wi.z) / pi_v<T>;
   }
   Rgb<T> eval(const V3<T>& wo, const V3<T>& wi) const {
-    return 1 / kPi<T> * (wo.z * wi.z > 0 ? front : through);
+    return 1 / pi_v<T> * (wo.z * wi.z > 0 ? front : through);
   }
 };
 
@@ -62,10 +62,10 @@ struct Chalk {
     return Sampled<double>{wi, albedo, pdf(wo, wi)};
   }
   double pdf(const V3<double>& wo, const V3<double>& wi) const {
-    return wo.z > 0 && wi.z > 0 ? wi.z / kPi<double> : 0;
+    return wo.z > 0 && wi.z > 0 ? wi.z / pi_v<double> : 0;
   }
   double eval(const V3<double>& wo, const V3<double>& wi) const {
-    return wo.z > 0 && wi.z > 0 ? albedo / kPi<double> : 0;
+    return wo.z > 0 && wi.z > 0 ? albedo / pi_v<double> : 0;
   }
 };
 
@@ -80,16 +80,16 @@ struct RetroDiffuse {
     const P2<T> d = concentric_disk(u.x, u.y);
     const V3<T> wi{d.x, d.y, safe_sqrt(1 - d.x * d.x - d.y * d.y)};
     if (!(wi.z > 0)) return std::nullopt;
-    return Sampled<T>{wi, eval(wo, wi) * kPi<T>, pdf(wo, wi)};
+    return Sampled<T>{wi, eval(wo, wi) * pi_v<T>, pdf(wo, wi)};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
-    return wo.z > 0 && wi.z > 0 ? wi.z / kPi<T> : T(0);
+    return wo.z > 0 && wi.z > 0 ? wi.z / pi_v<T> : T(0);
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const T c = fault == 1 ? wo.z : dot(wo, unit(wo + wi));
     const T rise = 2 * roughness * c * c - T(0.5);
-    return albedo / kPi<T> * (1 + rise * schlick(T(0), wo.z)) * (1 + rise * schlick(T(0), wi.z));
+    return albedo / pi_v<T> * (1 + rise * schlick(T(0), wo.z)) * (1 + rise * schlick(T(0), wi.z));
   }
 };
 
@@ -105,11 +105,11 @@ struct Plaster {
     return Sampled<T>{wi, albedo, pdf(wo, wi)};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
-    return wo.z * wi.z > 0 ? std::abs(wi.z) / kPi<T> : T(0);
+    return wo.z * wi.z > 0 ? std::abs(wi.z) / pi_v<T> : T(0);
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (fault != 1 && !(wo.z * wi.z > 0)) return 0;
-    return albedo / kPi<T>;
+    return albedo / pi_v<T>;
   }
 };
 
@@ -128,19 +128,19 @@ struct Charlie {
   }
   std::optional<Sampled<double>> sample(const V3<double>& wo, double u, double v) const {
     if (!(wo.z > 0)) return std::nullopt;
-    const V3<double> wi = spherical(1 - u, (fault == 2 ? 1 : 2) * kPi<double> * v);
+    const V3<double> wi = spherical(1 - u, (fault == 2 ? 1 : 2) * pi_v<double> * v);
     if (!(wi.z > 0)) return std::nullopt;
     const double f = eval(wo, wi);
-    return Sampled<double>{wi, fault == 1 ? f * kPi<double> : f * wi.z * 2 * kPi<double>,
+    return Sampled<double>{wi, fault == 1 ? f * pi_v<double> : f * wi.z * 2 * pi_v<double>,
                            pdf(wo, wi)};
   }
   double pdf(const V3<double>& wo, const V3<double>& wi) const {
-    return wo.z > 0 && wi.z > 0 ? 1 / (2 * kPi<double>) : 0;
+    return wo.z > 0 && wi.z > 0 ? 1 / (2 * pi_v<double>) : 0;
   }
   double eval(const V3<double>& wo, const V3<double>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const V3<double> h = unit(wo + wi);
-    const double d = 3 * safe_sqrt(1 - h.z * h.z) / (2 * kPi<double>);
+    const double d = 3 * safe_sqrt(1 - h.z * h.z) / (2 * pi_v<double>);
     return albedo * d / ((1 + lambda(wo.z) + lambda(wi.z)) * 4 * wo.z * wi.z);
   }
 };

@@ -109,7 +109,7 @@ struct GoldLeaf {
   T alpha = T(0.35);
   int fault = 0;
 
-  T slopes(T tan2) const { return std::exp(-tan2 / sqr(alpha)) / (kPi<T> * sqr(alpha)); }
+  T slopes(T tan2) const { return std::exp(-tan2 / sqr(alpha)) / (pi_v<T> * sqr(alpha)); }
   T d(const V3<T>& m) const {
     const T c2 = m.z * m.z;
     return slopes((1 - c2) / c2) / (c2 * c2);
@@ -129,7 +129,7 @@ struct GoldLeaf {
   std::optional<Sampled<T>> sample(const V3<T>& wo, T u, T v) const {
     if (!(wo.z > 0)) return std::nullopt;
     const T tan2 = -sqr(alpha) * std::log1p(-u);
-    const V3<T> m = spherical(1 / std::sqrt(1 + tan2), 2 * kPi<T> * v);
+    const V3<T> m = spherical(1 / std::sqrt(1 + tan2), 2 * pi_v<T> * v);
     const T c = dot(wo, m);
     if (!(c > 0)) return std::nullopt;
     const V3<T> wi = mirrored_at(wo, m);

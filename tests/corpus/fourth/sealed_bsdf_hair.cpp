@@ -33,7 +33,7 @@ struct Wool {
     return e / (s * sqr(1 + e)) / (cdf(1 - centre, s) - cdf(-1 - centre, s));
   }
   static T about_pdf(T x, T rho) {
-    return (1 - rho * rho) / (2 * kPi<T> * (1 + rho * rho - 2 * rho * std::cos(x)));
+    return (1 - rho * rho) / (2 * pi_v<T> * (1 + rho * rho - 2 * rho * std::cos(x)));
   }
   std::optional<Sampled<T>> sample(const V3<T>& wo, const P3<T>& u) const {
     std::size_t p = 0;
@@ -44,7 +44,7 @@ struct Wool {
     const T sine = std::clamp(centre - s * std::log(1 / k - 1), T(-1), T(1));
     const T narrow = (1 - focus[p]) / (1 + focus[p]);
     const T phi = std::atan2(wo.z, wo.y) + exit[p] +
-                  2 * std::atan(narrow * std::tan(kPi<T> * (u.z - T(0.5))));
+                  2 * std::atan(narrow * std::tan(pi_v<T> * (u.z - T(0.5))));
     const T cosine = safe_sqrt(1 - sine * sine);
     const V3<T> wi{sine, cosine * std::cos(phi), cosine * std::sin(phi)};
     const T q = pdf(wo, wi);

@@ -39,12 +39,12 @@ struct UnderWater {
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return wi.z / (kPi<T> * (fault == 1 ? T(1) : eta * eta));
+    return wi.z / (pi_v<T> * (fault == 1 ? T(1) : eta * eta));
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const T in = 1 - fresnel_dielectric(wo.z, eta), out = 1 - fresnel_dielectric(wi.z, eta);
-    return albedo * in * out / (kPi<T> * (fault == 2 ? T(1) : eta * eta));
+    return albedo * in * out / (pi_v<T> * (fault == 2 ? T(1) : eta * eta));
   }
 };
 
@@ -112,11 +112,11 @@ struct Stone {
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return (1 - mirror_share(wo)) * wi.z / kPi<T>;
+    return (1 - mirror_share(wo)) * wi.z / pi_v<T>;
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return (1 - mirror(wo.z)) * (1 - mirror(wi.z)) * albedo / kPi<T>;
+    return (1 - mirror(wo.z)) * (1 - mirror(wi.z)) * albedo / pi_v<T>;
   }
 };
 
@@ -142,7 +142,7 @@ struct Standard {
   /// Wider tails than GGX.
   static T coat_d(T cos_h, T alpha) {
     const T a2 = alpha * alpha;
-    return (a2 - 1) / (kPi<T> * std::log(a2) * (1 + (a2 - 1) * cos_h * cos_h));
+    return (a2 - 1) / (pi_v<T> * std::log(a2) * (1 + (a2 - 1) * cos_h * cos_h));
   }
   std::array<T, 3> shares() const {
     const T sum = colour + specular + clearcoat / 4;
@@ -159,7 +159,7 @@ struct Standard {
     } else {
       const T a2 = sqr(coat_alpha(false));
       const T cos_h = safe_sqrt((1 - std::pow(a2, 1 - u.y)) / (1 - a2));
-      const V3<T> m = spherical(cos_h, 2 * kPi<T> * u.z);
+      const V3<T> m = spherical(cos_h, 2 * pi_v<T> * u.z);
       if (!(dot(wo, m) > 0)) return std::nullopt;
       wi = mirrored_at(wo, m);
     }
@@ -172,7 +172,7 @@ struct Standard {
     const auto share = shares();
     const V3<T> m = unit(wo + wi);
     const T coat = coat_d(m.z, coat_alpha(true)) * (fault == 1 ? T(1) : m.z);
-    return share[0] * wi.z / kPi<T> +
+    return share[0] * wi.z / pi_v<T> +
            (share[1] * facets().visible_density(wo, m) + share[2] * coat) / (4 * dot(wo, m));
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
@@ -181,7 +181,7 @@ struct Standard {
     const T c = dot(wo, m), g = 4 * wo.z * wi.z;
     const TrowbridgeReitz<T> mask{T(0.25), T(0.25)};
     const T coat = clearcoat / 4 * schlick(T(0.04), c) * coat_d(m.z, coat_alpha(false));
-    return colour / kPi<T> +
+    return colour / pi_v<T> +
            specular * schlick(T(0.2), c) * facets().d(m) * facets().g2(wo, wi) / g +
            coat * mask.g1(wo) * mask.g1(wi) / g;
   }

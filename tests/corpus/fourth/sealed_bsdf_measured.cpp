@@ -45,7 +45,7 @@ class HalfTurnTable {
     }
     if (fault_ == 4) k = (k + kColumns) % kCells;
     const T z = (T(k / kColumns) + left) / kRows;
-    const T turn = (T(k % kColumns) + across) / kColumns * kPi<T>;
+    const T turn = (T(k % kColumns) + across) / kColumns * pi_v<T>;
     const V3<T> wi = spherical(z, std::atan2(wo.y, wo.x) + (mirrored ? -turn : turn));
     if (!(wi.z > 0)) return std::nullopt;
     const T q = pdf(wo, wi);
@@ -55,11 +55,11 @@ class HalfTurnTable {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     std::size_t k = cell(wo, wi);
     if (fault_ == 3) k = (kRows - 1 - k / kColumns) * kColumns + k % kColumns;
-    return p_[k] * kCells / (fault_ == 2 ? kPi<T> : 2 * kPi<T>);
+    return p_[k] * kCells / (fault_ == 2 ? pi_v<T> : 2 * pi_v<T>);
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return f_[cell(wo, wi)] / (4 * kPi<T>);
+    return f_[cell(wo, wi)] / (4 * pi_v<T>);
   }
 
  private:
@@ -67,7 +67,7 @@ class HalfTurnTable {
     return std::min(static_cast<std::size_t>(std::max(T(0), x) * T(n)), n - 1);
   }
   std::size_t cell(const V3<T>& wo, const V3<T>& wi) const {
-    T turn = (std::atan2(wi.y, wi.x) - std::atan2(wo.y, wo.x)) / kPi<T>;
+    T turn = (std::atan2(wi.y, wi.x) - std::atan2(wo.y, wo.x)) / pi_v<T>;
     turn -= 2 * std::floor(turn / 2);
     return place(wi.z, kRows) * kColumns + place(turn > 1 ? 2 - turn : turn, kColumns);
   }

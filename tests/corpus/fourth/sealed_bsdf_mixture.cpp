@@ -17,7 +17,7 @@ using fourth::TrowbridgeReitz;
 
 template <class T>
 T cosine_pdf(const V3<T>& wi) {
-  return wi.z / kPi<T>;
+  return wi.z / pi_v<T>;
 }
 
 /// Glazed tile: a diffuse body and a highlight, the shares by what wo's Fresnel term leaves. The
@@ -43,7 +43,7 @@ struct Tile {
     return schlick(f0, dot(wo, m)) * facets().d(m) * facets().g2(wo, wi) / (4 * wo.z * wi.z);
   }
   T body_f(const V3<T>& wo, const V3<T>& wi) const {
-    return albedo * (1 - schlick(f0, wo.z)) * (1 - schlick(f0, wi.z)) / kPi<T>;
+    return albedo * (1 - schlick(f0, wo.z)) * (1 - schlick(f0, wi.z)) / pi_v<T>;
   }
   std::optional<Sampled<T>> sample(const V3<T>& wo, T u, T v) const {
     if (!(wo.z > 0)) return std::nullopt;
@@ -121,7 +121,7 @@ struct Leather {
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const V3<T> m = unit(wo + wi);
-    T f = weight[0] / kPi<T>;
+    T f = weight[0] / pi_v<T>;
     for (std::size_t k = 0; k < 2; ++k) {
       const TrowbridgeReitz<T> s = facets(k, false);
       f += weight[k + 1] * s.d(m) * s.g2(wo, wi) / (4 * wo.z * wi.z);
@@ -153,7 +153,7 @@ struct PartsList {
   }
   double eval(const V3<double>& wo, const V3<double>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return 0.4 / kPi<double> + 0.5 * gloss.d(unit(wo + wi)) * gloss.g2(wo, wi) / (4 * wo.z * wi.z);
+    return 0.4 / pi_v<double> + 0.5 * gloss.d(unit(wo + wi)) * gloss.g2(wo, wi) / (4 * wo.z * wi.z);
   }
 };
 
@@ -186,7 +186,7 @@ struct Enamel {
   }
   double eval(const V3<double>& wo, const V3<double>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return 0.45 / kPi<double> + gloss_f(wo, wi);
+    return 0.45 / pi_v<double> + gloss_f(wo, wi);
   }
   int lobe_count() const { return 2; }
   double lobe_probability(const V3<double>&, int i) const {
@@ -198,7 +198,7 @@ struct Enamel {
     const auto wi = direction(wo, i, u.x, u.y);
     if (!wi) return std::nullopt;
     const double q = pdf_lobe(wo, *wi, i);
-    return Sampled<double>{*wi, (i == 0 ? 0.45 / kPi<double> : gloss_f(wo, *wi)) * wi->z / q, q};
+    return Sampled<double>{*wi, (i == 0 ? 0.45 / pi_v<double> : gloss_f(wo, *wi)) * wi->z / q, q};
   }
   double pdf_lobe(const V3<double>& wo, const V3<double>& wi, int i) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
@@ -233,7 +233,7 @@ struct Rust {
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const T metal = iron.d(unit(wo + wi)) * iron.g2(wo, wi) / (4 * wo.z * wi.z);
-    return amount * T(0.3) / kPi<T> + (1 - amount) * T(0.6) * metal;
+    return amount * T(0.3) / pi_v<T> + (1 - amount) * T(0.6) * metal;
   }
 };
 

@@ -16,10 +16,10 @@ struct Billiard {
   T exponent = 60;
   int fault = 0;
 
-  T d(const V3<T>& h, T n) const { return (n + 2) / (2 * kPi<T>)*std::pow(h.z, n); }
+  T d(const V3<T>& h, T n) const { return (n + 2) / (2 * pi_v<T>)*std::pow(h.z, n); }
   std::optional<Sampled<T>> sample(const V3<T>& wo, const P2<T>& u) const {
     if (!(wo.z > 0)) return std::nullopt;
-    const V3<T> h = spherical(std::pow(1 - u.x, 1 / (exponent + 2)), 2 * kPi<T> * u.y);
+    const V3<T> h = spherical(std::pow(1 - u.x, 1 / (exponent + 2)), 2 * pi_v<T> * u.y);
     if (!(dot(wo, h) > 0)) return std::nullopt;
     const V3<T> wi = mirrored_at(wo, h);
     if (!(wi.z > 0)) return std::nullopt;
@@ -51,16 +51,16 @@ struct GroundMetal {
   T of_half(const V3<T>& h) const {
     const T flat2 = h.x * h.x + h.y * h.y;
     const T e = flat2 > 0 ? (nu * h.x * h.x + nv * h.y * h.y) / flat2 : T(0);
-    return std::sqrt((nu + 1) * (nv + 1)) / (2 * kPi<T>)*std::pow(h.z, e);
+    return std::sqrt((nu + 1) * (nv + 1)) / (2 * pi_v<T>)*std::pow(h.z, e);
   }
   T azimuth(T u) const {
     const T four = 4 * u;
     const int quadrant = std::min(static_cast<int>(four), 3);
     const T left = four - T(quadrant);
-    const T first = std::atan(std::sqrt((nu + 1) / (nv + 1)) * std::tan(kPi<T> / 2 * left));
-    if (fault == 1) return first + T(quadrant) * kPi<T> / 2;
-    const T half = quadrant < 2 ? kPi<T> : 2 * kPi<T>;
-    return quadrant % 2 == 1 ? half - first : half - kPi<T> + first;
+    const T first = std::atan(std::sqrt((nu + 1) / (nv + 1)) * std::tan(pi_v<T> / 2 * left));
+    if (fault == 1) return first + T(quadrant) * pi_v<T> / 2;
+    const T half = quadrant < 2 ? pi_v<T> : 2 * pi_v<T>;
+    return quadrant % 2 == 1 ? half - first : half - pi_v<T> + first;
   }
   std::optional<Sampled<T>> sample(const V3<T>& wo, T u, T v) const {
     if (!(wo.z > 0)) return std::nullopt;
@@ -95,7 +95,7 @@ struct Satin {
 
   std::optional<Sampled<T>> sample(const V3<T>& wo, T u, T v) const {
     if (!(wo.z > 0)) return std::nullopt;
-    const T y = ay * std::sin(2 * kPi<T> * v), x = ax * std::cos(2 * kPi<T> * v);
+    const T y = ay * std::sin(2 * pi_v<T> * v), x = ax * std::cos(2 * pi_v<T> * v);
     const T phi = fault == 2 ? std::atan(y / x) : std::atan2(y, x);
     const T steep = sqr(std::cos(phi) / ax) + sqr(std::sin(phi) / ay);
     const T tan2 = -std::log1p(-u) / steep;
@@ -108,7 +108,7 @@ struct Satin {
     return Sampled<T>{wi, T(0.5) * c * h.z * h.z * h.z * std::sqrt(wi.z / wo.z), q};
   }
   T slopes(const V3<T>& h) const {
-    return std::exp(-(sqr(h.x / ax) + sqr(h.y / ay)) / sqr(h.z)) / (kPi<T> * ax * ay);
+    return std::exp(-(sqr(h.x / ax) + sqr(h.y / ay)) / sqr(h.z)) / (pi_v<T> * ax * ay);
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;

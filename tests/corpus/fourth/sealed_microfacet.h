@@ -15,7 +15,7 @@ struct TrowbridgeReitz {
   T d(const V3<T>& m) const {
     if (!(m.z > 0)) return 0;
     const T e = sqr(m.x / ax) + sqr(m.y / ay) + sqr(m.z);
-    return 1 / (kPi<T> * ax * ay * sqr(e));
+    return 1 / (pi_v<T> * ax * ay * sqr(e));
   }
   T lambda(const V3<T>& w) const {
     const T tan2 = (sqr(ax * w.x) + sqr(ay * w.y)) / sqr(w.z);
@@ -32,14 +32,14 @@ struct TrowbridgeReitz {
   /// @source Dupuy, Benyoub 2023 (CGF 42:8), "Sampling Visible GGX Normals with Spherical Caps"
   V3<T> visible(const V3<T>& wo, T u, T v) const {
     const V3<T> w = unit(V3<T>{ax * wo.x, ay * wo.y, wo.z});
-    const T z = (1 - u) * (1 + w.z) - w.z, r = safe_sqrt(1 - z * z), phi = 2 * kPi<T> * v;
+    const T z = (1 - u) * (1 + w.z) - w.z, r = safe_sqrt(1 - z * z), phi = 2 * pi_v<T> * v;
     const V3<T> h{r * std::cos(phi) + w.x, r * std::sin(phi) + w.y, z + w.z};
     return unit(V3<T>{ax * h.x, ay * h.y, std::max(T(1e-7), h.z)});
   }
 
   /// @source Walter et al. 2007, Eq. 35
   V3<T> any(T u, T v) const {
-    const T phi = 2 * kPi<T> * v, slope = std::sqrt(u / (1 - u));
+    const T phi = 2 * pi_v<T> * v, slope = std::sqrt(u / (1 - u));
     return unit(V3<T>{ax * slope * std::cos(phi), ay * slope * std::sin(phi), 1});
   }
 };

@@ -25,11 +25,11 @@ struct Bulb {
   static T cap(T sine2) { return sine2 / (1 + std::sqrt(1 - sine2)); }
   T sine2() const { return radius * radius / (distance * distance); }
   Xyz<T> sample(T u, T v) const {
-    return frame.to_world(around_z(u * cap(sine2()), 2 * kPi<T> * v));
+    return frame.to_world(around_z(u * cap(sine2()), 2 * pi_v<T> * v));
   }
   T pdf(const Xyz<T>& w) const {
     if (!(one_minus_dot(w, frame.z) <= cap(sine2()))) return 0;
-    return 1 / (2 * kPi<T> * cap(fault == 1 ? radius / distance : sine2()));
+    return 1 / (2 * pi_v<T> * cap(fault == 1 ? radius / distance : sine2()));
   }
 };
 
@@ -41,7 +41,7 @@ struct Globe {
   T radius;
 
   std::optional<Xyz<T>> sample(T u, T v) const {
-    const Xyz<T> n = around_z(2 * u, 2 * kPi<T> * v), p = centre + radius * n;
+    const Xyz<T> n = around_z(2 * u, 2 * pi_v<T> * v), p = centre + radius * n;
     if (!(dot(p, n) < 0)) return std::nullopt;
     return normalized(p);
   }
@@ -52,7 +52,7 @@ struct Globe {
     const Xyz<T> n = (1 / radius) * (d * w - centre);
     const T distance2 = fault == 1 ? dot(centre, centre) : d * d;
     const T cosine = fault == 2 ? dot(w, normalized(centre)) : -dot(w, n);
-    return distance2 / (cosine * 4 * kPi<T> * radius * radius);
+    return distance2 / (cosine * 4 * pi_v<T> * radius * radius);
   }
 };
 
@@ -160,16 +160,16 @@ struct SoftSpot {
     const T p = even_share();
     const T c =
         u < p ? 1 - u / p * (1 - inner) : outer + (inner - outer) * std::sqrt((1 - u) / (1 - p));
-    return frame.to_world(around_z(1 - c, 2 * kPi<T> * v));
+    return frame.to_world(around_z(1 - c, 2 * pi_v<T> * v));
   }
   T pdf(const Xyz<T>& w) const {
     const T c = dot(w, frame.z);
     if (!(c >= outer)) return 0;
     const T even = 1 - inner, rim = (inner - outer) / (fault == 1 ? 1 : 2);
     const T p = even / (even + rim);
-    if (c >= inner) return p / (2 * kPi<T> * (1 - inner));
+    if (c >= inner) return p / (2 * pi_v<T> * (1 - inner));
     const T width = inner - outer;
-    return (1 - p) * 2 * (c - outer) / (width * width) / (2 * kPi<T>);
+    return (1 - p) * 2 * (c - outer) / (width * width) / (2 * pi_v<T>);
   }
 };
 

@@ -39,12 +39,12 @@ struct TiltedSky {
     choice.emplace_back(fault == 2 ? by_edge : by_middle);
     stated.emplace_back(by_middle);
   }
-  static T sine(T row) { return std::max(T(0), std::sin(kPi<T> * row / kHigh)); }
+  static T sine(T row) { return std::max(T(0), std::sin(pi_v<T> * row / kHigh)); }
 
   Xyz<T> sample(T u, T v) const {
     const int j = choice.front().pick(v), i = rows[static_cast<std::size_t>(j)].pick(u);
-    const T phi = 2 * kPi<T> * (static_cast<T>(i) + u) / kWide;
-    const T theta = kPi<T> * (static_cast<T>(j) + v) / kHigh, r = std::sin(theta);
+    const T phi = 2 * pi_v<T> * (static_cast<T>(i) + u) / kWide;
+    const T theta = pi_v<T> * (static_cast<T>(j) + v) / kHigh, r = std::sin(theta);
     return world.to_world({r * std::cos(phi), r * std::sin(phi), std::cos(theta)});
   }
   T pdf(const Xyz<T>& given) const {
@@ -52,9 +52,9 @@ struct TiltedSky {
     const T r = std::sqrt(w.x * w.x + w.y * w.y);
     if (!(r > 0)) return 0;
     const int i = cell_of(fourth::turn_of(w.x, w.y), kWide);
-    const int j = cell_of(std::atan2(r, w.z) / kPi<T>, kHigh);
+    const int j = cell_of(std::atan2(r, w.z) / pi_v<T>, kHigh);
     const T probability = stated.front()[j] * rows[static_cast<std::size_t>(j)][i];
-    return probability * kWide * kHigh / (2 * kPi<T> * kPi<T> * r);
+    return probability * kWide * kHigh / (2 * pi_v<T> * pi_v<T> * r);
   }
 };
 
@@ -136,16 +136,16 @@ struct SunAndSky {
   Xyz<T> sample(T u, T v) const {
     if (u < sun_share) {
       const T left = fourth::below_one(u / sun_share);
-      return sun.to_world(around_z(left * cap(radius), 2 * kPi<T> * v));
+      return sun.to_world(around_z(left * cap(radius), 2 * pi_v<T> * v));
     }
-    const T left = fourth::below_one((u - sun_share) / (1 - sun_share)), phi = 2 * kPi<T> * v;
+    const T left = fourth::below_one((u - sun_share) / (1 - sun_share)), phi = 2 * pi_v<T> * v;
     const T r = std::sqrt(left);
     return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - left)};
   }
   T pdf(const Xyz<T>& w) const {
-    T q = std::max(T(0), w.z) / kPi<T> * (fault == 2 ? T(1) : 1 - sun_share);
+    T q = std::max(T(0), w.z) / pi_v<T> * (fault == 2 ? T(1) : 1 - sun_share);
     if (one_minus_dot(w, sun.z) <= cap(radius)) {
-      q += sun_share / (2 * kPi<T> * cap(fault == 1 ? 2 * radius : radius));
+      q += sun_share / (2 * pi_v<T> * cap(fault == 1 ? 2 * radius : radius));
     }
     return q;
   }

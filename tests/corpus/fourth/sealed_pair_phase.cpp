@@ -30,7 +30,7 @@ struct Flakes {
   T area() const { return std::sqrt(bilinear(view, view)); }
   T d(const Xyz<T>& m) const {
     const T e = m.x * m.x / s.x + m.y * m.y / s.y + m.z * m.z / s.z;
-    return 1 / (kPi<T> * std::sqrt(s.x * s.y * s.z) * e * e);
+    return 1 / (pi_v<T> * std::sqrt(s.x * s.y * s.z) * e * e);
   }
   Xyz<T> sample(T u, T v) const {
     const Frame<T> f(view);
@@ -40,7 +40,7 @@ struct Flakes {
     const T t = std::sqrt(jj * ii - ji * ji);
     const Xyz<T> mk{root_det / t, 0, 0}, mi{ki / root_ii, ji / root_ii, root_ii};
     const Xyz<T> mj{-(ki * ji - kj * ii) / (t * root_ii), t / root_ii, 0};
-    const T r = std::sqrt(u), a = r * std::cos(2 * kPi<T> * v), b = r * std::sin(2 * kPi<T> * v);
+    const T r = std::sqrt(u), a = r * std::cos(2 * pi_v<T> * v), b = r * std::sin(2 * pi_v<T> * v);
     const Xyz<T> m = f.to_world(normalized(a * mk + b * mj + std::sqrt(1 - u) * mi));
     return normalized(2 * dot(view, m) * m - view);
   }
@@ -79,7 +79,7 @@ struct Drops {
     const T t = std::min(T(1), u * (p + q) / (p + std::sqrt(p * p + u * (q * q - p * p))));
     if (fault == 3) k = (k + 1) % kCells;
     const T cosine = 2 * (static_cast<T>(k) + t) / kCells - 1;
-    return onward.to_world(around_z(1 - cosine, 2 * kPi<T> * v));
+    return onward.to_world(around_z(1 - cosine, 2 * pi_v<T> * v));
   }
   T pdf(const Xyz<T>& w) const {
     const T cosine = std::clamp(dot(w, onward.z), T(-1), T(1));
@@ -89,7 +89,7 @@ struct Drops {
     const std::vector<T> m = masses();
     const T all = std::accumulate(m.begin(), m.end(), T(0));
     const T per_cosine = ((1 - t) * at_node(k) + t * at_node(k + 1)) * kCells / (2 * all);
-    return fault == 2 ? per_cosine : per_cosine / (2 * kPi<T>);
+    return fault == 2 ? per_cosine : per_cosine / (2 * pi_v<T>);
   }
 };
 
@@ -97,7 +97,7 @@ struct Drops {
 template <class T>
 T hg(T g, T cosine) {
   const T d = 1 + g * g - 2 * g * cosine;
-  return (1 - g * g) / (4 * kPi<T> * d * std::sqrt(d));
+  return (1 - g * g) / (4 * pi_v<T> * d * std::sqrt(d));
 }
 
 /// Haze: a forward lobe and a weaker one back.
@@ -114,7 +114,7 @@ struct Haze {
     const T g = first ? (fault == 1 ? std::min(forward, T(0.8)) : forward) : back;
     const T k = (1 - g * g) / (1 + g - 2 * g * left);
     const T cosine = std::clamp((1 + g * g - k * k) / (2 * g), T(-1), T(1));
-    const Xyz<T> w = onward.to_world(around_z(1 - cosine, 2 * kPi<T> * v));
+    const Xyz<T> w = onward.to_world(around_z(1 - cosine, 2 * pi_v<T> * v));
     const T q = pdf(w);
     return Record<Xyz<T>, T>{w, q, value(w) / q};
   }

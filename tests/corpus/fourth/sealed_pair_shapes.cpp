@@ -22,7 +22,7 @@ struct TurnedIris {
   T turn;
 
   T corner(int k, T from) const {
-    return from + 2 * kPi<T> * static_cast<T>(k) / static_cast<T>(blades);
+    return from + 2 * pi_v<T> * static_cast<T>(k) / static_cast<T>(blades);
   }
   Xy<T> sample(T u, T v) const {
     const T scaled = u * static_cast<T>(blades);
@@ -33,7 +33,7 @@ struct TurnedIris {
             a * std::sin(corner(k, turn)) + b * std::sin(corner(k + 1, turn))};
   }
   T pdf(const Xy<T>& p) const {
-    const T half = kPi<T> / static_cast<T>(blades);
+    const T half = pi_v<T> / static_cast<T>(blades);
     for (int k = 0; k < blades; ++k) {
       const T middle = corner(k, fault == 1 ? T(0) : turn) + half;
       if (p.x * std::cos(middle) + p.y * std::sin(middle) > std::cos(half)) return 0;
@@ -56,12 +56,12 @@ struct RoundLens {
     if (a == 0 && b == 0) return {0, 0};
     const bool wide = std::abs(a) > std::abs(b);
     const T r = radius * (wide ? a : b);
-    T phi = kPi<T> / 4 * (wide ? b / a : a / b);
-    if (!wide && fault != 1) phi = kPi<T> / 2 - phi;
+    T phi = pi_v<T> / 4 * (wide ? b / a : a / b);
+    if (!wide && fault != 1) phi = pi_v<T> / 2 - phi;
     return {r * std::cos(phi), r * std::sin(phi)};
   }
   T pdf(const Xy<T>& p) const {
-    return p.x * p.x + p.y * p.y <= radius * radius ? 1 / (kPi<T> * radius * radius) : T(0);
+    return p.x * p.x + p.y * p.y <= radius * radius ? 1 / (pi_v<T> * radius * radius) : T(0);
   }
 };
 
@@ -82,7 +82,7 @@ struct Wax {
     const auto k = static_cast<std::size_t>(odds.pick(left));
     if (fault == 2) left = u;
     const T r = std::min(most, std::sqrt(-2 * variance[k] * std::log1p(-left * inside(k))));
-    return {r * std::cos(2 * kPi<T> * v), r * std::sin(2 * kPi<T> * v)};
+    return {r * std::cos(2 * pi_v<T> * v), r * std::sin(2 * pi_v<T> * v)};
   }
   T pdf(const Xy<T>& p) const {
     const T r2 = p.x * p.x + p.y * p.y;
@@ -90,7 +90,7 @@ struct Wax {
     T q = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const T share = odds[static_cast<int>(fault == 1 ? 2 - k : k)];
-      q += share * std::exp(-r2 / (2 * variance[k])) / (2 * kPi<T> * variance[k] * inside(k));
+      q += share * std::exp(-r2 / (2 * variance[k])) / (2 * pi_v<T> * variance[k] * inside(k));
     }
     return q;
   }

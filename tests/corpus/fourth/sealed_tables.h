@@ -45,7 +45,7 @@ Xyz<T> spherical(T z, T phi) {
 /// Share of a turn, from 0 to 1.
 template <class T>
 T turn_of(T x, T y) {
-  const T turn = std::atan2(y, x) / (2 * kPi<T>);
+  const T turn = std::atan2(y, x) / (2 * pi_v<T>);
   return turn < 0 ? turn + 1 : turn;
 }
 

@@ -24,23 +24,24 @@ void add_sealed_lines(std::vector<Case>& cases) {
       [] { return line("visible wavelengths", 360.0, 830.0, VisibleWavelengths<double>{2}); }));
   cases.push_back(
       twin("trimmed logistic/double/not trimmed", "pdf over the whole line", {Kind::constant}, [] {
-        return line("trimmed logistic", -kPi<double>, kPi<double>,
+        return line("trimmed logistic", -pi_v<double>, pi_v<double>,
                     TrimmedLogistic<double>{2, 0.9, 0.8});
       }));
   cases.push_back(
       twin("trimmed logistic/double/centre forgotten", "pdf around 0", {Kind::shifted}, [] {
-        return line("trimmed logistic", -kPi<double>, kPi<double>,
+        return line("trimmed logistic", -pi_v<double>, pi_v<double>,
                     TrimmedLogistic<double>{4, 0.9, 0.8});
       }));
   cases.push_back(twin("trimmed logistic/float/scale missing", "1/s missing", {Kind::constant}, [] {
-    return line("trimmed logistic", -kPi<float>, kPi<float>, TrimmedLogistic<float>{3, 0.2F, 0.8F});
+    return line("trimmed logistic", -pi_v<float>, pi_v<float>,
+                TrimmedLogistic<float>{3, 0.2F, 0.8F});
   }));
   cases.push_back(twin("von Mises/double/2π missing", "2π missing", {Kind::constant}, [] {
-    return line("von Mises", -kPi<double>, kPi<double>, VonMises<double>{1, 4});
+    return line("von Mises", -pi_v<double>, pi_v<double>, VonMises<double>{1, 4});
   }));
   cases.push_back(
       twin("von Mises/double/not rejected", "every candidate is kept", {Kind::not_rejected}, [] {
-        return line("von Mises", -kPi<double>, kPi<double>, VonMises<double>{2, 4});
+        return line("von Mises", -pi_v<double>, pi_v<double>, VonMises<double>{2, 4});
       }));
   cases.push_back(twin("tent/float/right half reversed",
                        "1 − √u and √u exchanged on the right: fewest in the middle",

@@ -99,10 +99,10 @@ struct ColouredCard {
       wo.z = -wo.z;
       if (fault != 2) wi.z = -wi.z;
     }
-    return wi.z > 0 ? wi.z / kPi<T> : T(0);
+    return wi.z > 0 ? wi.z / pi_v<T> : T(0);
   }
   Rgb<T> eval(const V3<T>& wo, const V3<T>& wi) const {
-    return (wo.z * wi.z > 0 ? 1 / kPi<T> : T(0)) * colour;
+    return (wo.z * wi.z > 0 ? 1 / pi_v<T> : T(0)) * colour;
   }
 };
 
@@ -120,11 +120,11 @@ struct YUpCloth {
     return Record{wi, eval(wo, wi) * (fault == 1 ? wi.y : 1), pdf(wo, wi)};
   }
   double pdf(const V3<double>& wo, const V3<double>& wi) const {
-    return wo.y > 0 && wi.y > 0 ? wi.y / kPi<double> : 0;
+    return wo.y > 0 && wi.y > 0 ? wi.y / pi_v<double> : 0;
   }
   double eval(const V3<double>& wo, const V3<double>& wi) const {
     if (!(wo.y > 0) || !(wi.y > 0)) return 0;
-    return 0.5 / kPi<double> * (1 - 0.5 * wo.y * wi.y) * wi.y;
+    return 0.5 / pi_v<double> * (1 - 0.5 * wo.y * wi.y) * wi.y;
   }
 };
 

@@ -29,12 +29,12 @@ struct Paper {
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z * wi.z > 0)) return 0;
-    return std::abs(fault == 2 ? wo.z : wi.z) / kPi<T>;
+    return std::abs(fault == 2 ? wo.z : wi.z) / pi_v<T>;
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z * wi.z > 0)) return 0;
-    const T f = albedo / kPi<T>;
-    return fault == 1 ? albedo : fault == 5 ? f / kPi<T> : f;
+    const T f = albedo / pi_v<T>;
+    return fault == 1 ? albedo : fault == 5 ? f / pi_v<T> : f;
   }
 };
 
@@ -54,19 +54,19 @@ struct Minnaert {
 
   std::optional<Sampled<T>> sample(const V3<T>& wo, const P2<T>& u) const {
     if (!(wo.z > 0)) return std::nullopt;
-    const V3<T> wi = spherical(u.x, 2 * kPi<T> * u.y);
+    const V3<T> wi = spherical(u.x, 2 * pi_v<T> * u.y);
     if (!(wi.z > 0)) return std::nullopt;
     const T q = pdf(wo, wi);
     return Sampled<T>{wi, eval(wo, wi) * wi.z / q, q};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return 1 / ((fault == 1 ? 1 : 2) * kPi<T>);
+    return 1 / ((fault == 1 ? 1 : 2) * pi_v<T>);
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const T cosines = fault == 2 ? wi.z : wo.z * wi.z;
-    return albedo / kPi<T> * (darkening + 1) / 2 * std::pow(cosines, darkening - 1);
+    return albedo / pi_v<T> * (darkening + 1) / 2 * std::pow(cosines, darkening - 1);
   }
 };
 
@@ -86,11 +86,11 @@ struct Clay {
     return Sampled<double>{wi, eval(wo, wi) * wi.z / q, q};
   }
   double pdf(const V3<double>& wo, const V3<double>& wi) const {
-    return wo.z > 0 && wi.z > 0 ? wi.z / kPi<double> : 0;
+    return wo.z > 0 && wi.z > 0 ? wi.z / pi_v<double> : 0;
   }
   double eval(const V3<double>& wo, const V3<double>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    const double a = 1 / (kPi<double> + (kPi<double> / 2 - 2.0 / 3) * sigma), b = sigma * a;
+    const double a = 1 / (pi_v<double> + (pi_v<double> / 2 - 2.0 / 3) * sigma), b = sigma * a;
     const double flat_o = std::hypot(wo.x, wo.y), flat_i = std::hypot(wi.x, wi.y);
     double turn = 0;
     if (fault == 1 || flat_o * flat_i > 1e-12) {

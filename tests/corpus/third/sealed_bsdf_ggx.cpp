@@ -78,7 +78,7 @@ struct PlainMetal {
   };
   T ndf(const V3<T>& m, T along_x, T along_y) const {
     const T d = Facets<T>{along_x, along_y}.ndf(m);
-    return fault == 4 ? d * kPi<T> : d;
+    return fault == 4 ? d * pi_v<T> : d;
   }
   std::optional<Record> sample(const V3<T>& wo, const P2<T>& u) const {
     if (!(wo.z > 0)) return std::nullopt;

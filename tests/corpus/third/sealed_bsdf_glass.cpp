@@ -127,10 +127,10 @@ struct Gauze {
     return {wi, albedo, pdf(wo, wi), false};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
-    return wo.z * wi.z > 0 ? (1 - open) * std::abs(wi.z) / kPi<T> : T(0);
+    return wo.z * wi.z > 0 ? (1 - open) * std::abs(wi.z) / pi_v<T> : T(0);
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
-    return wo.z * wi.z > 0 ? (1 - open) * albedo / kPi<T> : T(0);
+    return wo.z * wi.z > 0 ? (1 - open) * albedo / pi_v<T> : T(0);
   }
 };
 

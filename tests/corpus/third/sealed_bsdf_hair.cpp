@@ -38,12 +38,12 @@ struct Fur {
     T theta = 0, phi = 0;
     if (u.x < anywhere) {
       theta = std::asin(std::clamp(2 * u.y - 1, T(-1), T(1)));
-      phi = 2 * kPi<T> * u.z;
+      phi = 2 * pi_v<T> * u.z;
     } else {
       const T centre = -inclination(wo);
       const T s = fault == 3 ? spread * spread : spread;
-      theta = centre + cut(u.y, s, -kPi<T> / 2 - centre, kPi<T> / 2 - centre);
-      phi = exit + cut(u.z, turn_spread, -kPi<T>, kPi<T>);
+      theta = centre + cut(u.y, s, -pi_v<T> / 2 - centre, pi_v<T> / 2 - centre);
+      phi = exit + cut(u.z, turn_spread, -pi_v<T>, pi_v<T>);
       if (fault != 5) phi += azimuth(wo);
     }
     const T c = std::cos(theta);
@@ -52,19 +52,19 @@ struct Fur {
   }
   T lobe(const V3<T>& wo, const V3<T>& wi, int which) const {
     const T centre = which == 4 ? inclination(wo) : -inclination(wo);
-    const T inside = cdf(kPi<T> / 2 - centre, spread) - cdf(-kPi<T> / 2 - centre, spread);
+    const T inside = cdf(pi_v<T> / 2 - centre, spread) - cdf(-pi_v<T> / 2 - centre, spread);
     T along = logistic(inclination(wi) - centre, spread) / inside;
     if (which != 1) along /= std::max(T(1e-6), std::sqrt(wi.y * wi.y + wi.z * wi.z));
     T x = azimuth(wi) - azimuth(wo);
     if (which == 2) x = -x;
     x -= exit;
-    x -= 2 * kPi<T> * std::floor((x + kPi<T>) / (2 * kPi<T>));
-    const T about = cdf(kPi<T>, turn_spread) - cdf(-kPi<T>, turn_spread);
+    x -= 2 * pi_v<T> * std::floor((x + pi_v<T>) / (2 * pi_v<T>));
+    const T about = cdf(pi_v<T>, turn_spread) - cdf(-pi_v<T>, turn_spread);
     return along * logistic(x, turn_spread) / about;
   }
   T mixed(const V3<T>& wo, const V3<T>& wi, int which) const {
     const T p = which == 6 ? T(0) : anywhere;
-    return p / (4 * kPi<T>)+(1 - p) * lobe(wo, wi, which);
+    return p / (4 * pi_v<T>)+(1 - p) * lobe(wo, wi, which);
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const { return mixed(wo, wi, fault); }
   T eval(const V3<T>& wo, const V3<T>& wi) const {

@@ -33,14 +33,14 @@ struct Varnish {
                                        : cosine_hemisphere(u.y, u.z);
     if (!(wi.z > 0)) return std::nullopt;
     const T q = pdf(wo, wi), weight = eval(wo, wi) * wi.z / q;
-    if (fault == 3) return Sampled<T>{wi, weight, coat_pdf(wo, unit(wo + wi)) + wi.z / kPi<T>};
+    if (fault == 3) return Sampled<T>{wi, weight, coat_pdf(wo, unit(wo + wi)) + wi.z / pi_v<T>};
     return Sampled<T>{wi, weight, q};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const V3<T> m = unit(wo + wi);
     const T p = share(fault == 1 ? dot(wo, m) : wo.z);
-    return p * coat_pdf(wo, m) + (1 - p) * wi.z / kPi<T>;
+    return p * coat_pdf(wo, m) + (1 - p) * wi.z / pi_v<T>;
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
@@ -49,7 +49,7 @@ struct Varnish {
         fresnel_dielectric(dot(wo, m), eta) * facets.ndf(m) * facets.g2(wo, wi) / (4 * wo.z * wi.z);
     const T in = 1 - fresnel_dielectric(wo.z, eta);
     const T out = fault == 4 ? in : 1 - fresnel_dielectric(wi.z, eta);
-    return coat + albedo / kPi<T> * (fault == 2 ? T(1) : in * out);
+    return coat + albedo / pi_v<T> * (fault == 2 ? T(1) : in * out);
   }
 };
 
@@ -68,16 +68,16 @@ struct Velvet {
     if (!(wo.z > 0)) return std::nullopt;
     const V3<T> wi = cosine_hemisphere(u, v);
     if (!(wi.z > 0)) return std::nullopt;
-    return Sampled<T>{wi, eval(wo, wi) * kPi<T>, pdf(wo, wi)};
+    return Sampled<T>{wi, eval(wo, wi) * pi_v<T>, pdf(wo, wi)};
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
-    return wo.z > 0 && wi.z > 0 ? wi.z / kPi<T> : T(0);
+    return wo.z > 0 && wi.z > 0 ? wi.z / pi_v<T> : T(0);
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const T edge = schlick(T(0), dot(wo, unit(wo + wi)));
     const T below = fault == 1 ? T(1) : 1 - fuzz;
-    return (albedo * below + fuzz * edge) / kPi<T>;
+    return (albedo * below + fuzz * edge) / pi_v<T>;
   }
 };
 
@@ -107,12 +107,12 @@ struct Lacquer {
   }
   T pdf(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return (fault == 1 ? T(1) : 1 - mirror_share(wo)) * wi.z / kPi<T>;
+    return (fault == 1 ? T(1) : 1 - mirror_share(wo)) * wi.z / pi_v<T>;
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const T in = 1 - fresnel_dielectric(wo.z, T(1.4));
-    return in * (1 - fresnel_dielectric(wi.z, T(1.4))) * albedo / kPi<T>;
+    return in * (1 - fresnel_dielectric(wi.z, T(1.4))) * albedo / pi_v<T>;
   }
 };
 

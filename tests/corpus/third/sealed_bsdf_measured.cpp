@@ -41,7 +41,7 @@ class Gonio {
     if (fault_ == 1) column = (column + 1) % kColumns;
     if (fault_ == 6) column = kColumns - 1 - column;
     const T z = (T(row) + (fault_ == 3 ? u : left)) / kRows;
-    const T turn = (T(column) + v) / kColumns * 2 * kPi<T>;
+    const T turn = (T(column) + v) / kColumns * 2 * pi_v<T>;
     const V3<T> wi = spherical(z, turn + (fault_ == 2 ? T(0) : std::atan2(wo.y, wo.x)));
     if (!(wi.z > 0)) return std::nullopt;
     const T q = density(wo, wi);
@@ -55,7 +55,7 @@ class Gonio {
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return f_[cell(wo, wi)] / (4 * kPi<T>);
+    return f_[cell(wo, wi)] / (4 * pi_v<T>);
   }
 
  private:
@@ -63,13 +63,13 @@ class Gonio {
     return std::min(static_cast<std::size_t>(std::max(T(0), x) * T(n)), n - 1);
   }
   std::size_t cell(const V3<T>& wo, const V3<T>& wi) const {
-    T turn = (std::atan2(wi.y, wi.x) - std::atan2(wo.y, wo.x)) / (2 * kPi<T>);
+    T turn = (std::atan2(wi.y, wi.x) - std::atan2(wo.y, wo.x)) / (2 * pi_v<T>);
     turn -= std::floor(turn);
     return place(wi.z, kRows) * kColumns + place(turn, kColumns);
   }
   T density(const V3<T>& wo, const V3<T>& wi) const {
     const T cells = fault_ == 5 ? T(1) : T(kCells);
-    return f_[cell(wo, wi)] / total_ * cells / (2 * kPi<T>);
+    return f_[cell(wo, wi)] / total_ * cells / (2 * pi_v<T>);
   }
   int fault_;
   std::array<T, kCells> f_{}, cdf_{};

@@ -22,7 +22,7 @@ struct Plastic {
   int fault = 0;
   T kd = T(0.4), ks = T(0.5), diffuse_share = T(0.35);
 
-  T diffuse_pdf(const V3<T>& wi) const { return wi.z / kPi<T>; }
+  T diffuse_pdf(const V3<T>& wi) const { return wi.z / pi_v<T>; }
   T glossy_pdf(const V3<T>& wo, const V3<T>& wi) const {
     return facets.g1(wo) * facets.ndf(unit(wo + wi)) / (4 * wo.z);
   }
@@ -30,7 +30,7 @@ struct Plastic {
     return ks * facets.ndf(unit(wo + wi)) * facets.g2(wo, wi) / (4 * wo.z * wi.z);
   }
   V3<T> cosine_direction(T u, T v) const {
-    const T r = fault == 1 ? u : std::sqrt(u), phi = 2 * kPi<T> * v;
+    const T r = fault == 1 ? u : std::sqrt(u), phi = 2 * pi_v<T> * v;
     return {r * std::cos(phi), r * std::sin(phi), safe_sqrt(1 - r * r)};
   }
   std::optional<Sampled<T>> sample(const V3<T>& wo, T u, T v) const {
@@ -45,7 +45,7 @@ struct Plastic {
     T q = pdf(wo, wi);
     const T chosen =
         diffuse ? diffuse_share * diffuse_pdf(wi) : (1 - diffuse_share) * glossy_pdf(wo, wi);
-    const T f = diffuse ? kd / kPi<T> : glossy_f(wo, wi);
+    const T f = diffuse ? kd / pi_v<T> : glossy_f(wo, wi);
     if (fault == 3) return Sampled<T>{wi, f * wi.z / chosen, q};
     if (fault == 4) q = chosen;
     return Sampled<T>{wi, eval(wo, wi) * wi.z / q, q};
@@ -58,7 +58,7 @@ struct Plastic {
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
-    return kd / kPi<T> + glossy_f(wo, wi);
+    return kd / pi_v<T> + glossy_f(wo, wi);
   }
 };
 
@@ -100,13 +100,13 @@ struct Skin {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     std::array<T, 3> w = weight;
     if (fault == 3) std::swap(w[1], w[2]);
-    const T mixed = w[0] * wi.z / kPi<T> + w[1] * oil_pdf(wo, wi, 0) + w[2] * oil_pdf(wo, wi, 1);
+    const T mixed = w[0] * wi.z / pi_v<T> + w[1] * oil_pdf(wo, wi, 0) + w[2] * oil_pdf(wo, wi, 1);
     return fault == 1 ? mixed : mixed / sum();
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const V3<T> m = unit(wo + wi);
-    T f = weight[0] / kPi<T>;
+    T f = weight[0] / pi_v<T>;
     for (std::size_t k = 0; k < 2; ++k) {
       f += weight[k + 1] * oil[k].ndf(m) * oil[k].g2(wo, wi) / (4 * wo.z * wi.z);
     }
@@ -143,12 +143,12 @@ struct CarPaint {
   double pdf(const V3<double>& wo, const V3<double>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const double glossy = flakes.g1(wo) * flakes.ndf(unit(wo + wi)) / (4 * wo.z);
-    return base_share * wi.z / kPi<double> + (1 - base_share) * glossy;
+    return base_share * wi.z / pi_v<double> + (1 - base_share) * glossy;
   }
   double eval(const V3<double>& wo, const V3<double>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const double glossy = flakes.ndf(unit(wo + wi)) * flakes.g2(wo, wi) / (4 * wo.z * wi.z);
-    return 0.2 / kPi<double> + 0.7 * glossy;
+    return 0.2 / pi_v<double> + 0.7 * glossy;
   }
 };
 

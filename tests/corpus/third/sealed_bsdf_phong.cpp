@@ -20,7 +20,7 @@ struct Gloss {
     if (!(wo.z > 0)) return std::nullopt;
     const T power = fault == 4 ? exponent / 2 : exponent;
     const Frame<T> around(V3<T>{-wo.x, -wo.y, wo.z});
-    V3<T> wi = around.to_world(spherical(std::pow(1 - u.x, 1 / (power + 1)), 2 * kPi<T> * u.y));
+    V3<T> wi = around.to_world(spherical(std::pow(1 - u.x, 1 / (power + 1)), 2 * pi_v<T> * u.y));
     if (fault == 3 && wi.z < T(0.01)) wi = unit(V3<T>{wi.x, wi.y, T(0.01)});
     if (!(wi.z > 0)) return std::nullopt;
     const T q = pdf(wo, wi);
@@ -32,13 +32,13 @@ struct Gloss {
     const V3<T> axis = fault == 2 ? wo : V3<T>{-wo.x, -wo.y, wo.z};
     const T cosine = dot(axis, wi);
     if (!(cosine > 0)) return 0;
-    return (exponent + 1) / ((fault == 1 ? 1 : 2) * kPi<T>)*std::pow(cosine, exponent);
+    return (exponent + 1) / ((fault == 1 ? 1 : 2) * pi_v<T>)*std::pow(cosine, exponent);
   }
   T eval(const V3<T>& wo, const V3<T>& wi) const {
     if (!(wo.z > 0) || !(wi.z > 0)) return 0;
     const T cosine = wo.z * wi.z - wo.x * wi.x - wo.y * wi.y;
     if (!(cosine > 0)) return 0;
-    return T(0.8) * (exponent + 2) / (2 * kPi<T>)*std::pow(cosine, exponent);
+    return T(0.8) * (exponent + 2) / (2 * pi_v<T>)*std::pow(cosine, exponent);
   }
 };
 
@@ -52,7 +52,7 @@ struct Ward {
   int fault = 0;
 
   V3<T> half(T u, T v) const {
-    const T phi = std::atan2(ay * std::sin(2 * kPi<T> * v), ax * std::cos(2 * kPi<T> * v));
+    const T phi = std::atan2(ay * std::sin(2 * pi_v<T> * v), ax * std::cos(2 * pi_v<T> * v));
     const T c = std::cos(phi), s = std::sin(phi);
     const T steep = sqr(c / ax) + sqr(s / ay);
     const T tan2 = -std::log(1 - u) / (fault == 3 ? std::sqrt(steep) : steep);
@@ -60,7 +60,7 @@ struct Ward {
     return {r * c, r * s, z};
   }
   T slopes(const V3<T>& h) const {
-    return std::exp(-(sqr(h.x / ax) + sqr(h.y / ay)) / (h.z * h.z)) / (4 * kPi<T> * ax * ay);
+    return std::exp(-(sqr(h.x / ax) + sqr(h.y / ay)) / (h.z * h.z)) / (4 * pi_v<T> * ax * ay);
   }
   std::optional<Sampled<T>> sample(const V3<T>& wo, T u, T v) const {
     if (!(wo.z > 0)) return std::nullopt;

@@ -15,7 +15,7 @@ struct Facets {
   T ndf(const V3<T>& m) const {
     if (!(m.z > 0)) return 0;
     const T e = sqr(m.x / ax) + sqr(m.y / ay) + sqr(m.z);
-    return 1 / (kPi<T> * ax * ay * e * e);
+    return 1 / (pi_v<T> * ax * ay * e * e);
   }
   T g1(const V3<T>& w) const {
     const T z = std::abs(w.z);
@@ -32,14 +32,14 @@ struct Facets {
     const T flat = w.x * w.x + w.y * w.y;
     const V3<T> a = flat > 0 ? (1 / std::sqrt(flat)) * V3<T>{-w.y, w.x, 0} : V3<T>{1, 0, 0};
     const V3<T> b = cross(w, a);
-    const T r = std::sqrt(u), phi = 2 * kPi<T> * v, s = (1 + w.z) / 2;
+    const T r = std::sqrt(u), phi = 2 * pi_v<T> * v, s = (1 + w.z) / 2;
     const T p = r * std::cos(phi);
     const T q = (1 - s) * safe_sqrt(1 - p * p) + s * r * std::sin(phi);
     const V3<T> n = p * a + q * b + safe_sqrt(1 - p * p - q * q) * w;
     return unit(V3<T>{ax * n.x, ay * n.y, std::max(T(0), n.z)});
   }
   V3<T> any_normal(T u, T v) const {
-    const T phi = 2 * kPi<T> * v, slope = std::sqrt(u / (1 - u));
+    const T phi = 2 * pi_v<T> * v, slope = std::sqrt(u / (1 - u));
     return unit(V3<T>{ax * slope * std::cos(phi), ay * slope * std::sin(phi), 1});
   }
 };

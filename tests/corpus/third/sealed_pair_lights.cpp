@@ -27,12 +27,12 @@ struct Spot {
   Xyz<T> sample(T u, T v) const {
     const T s = std::sin(angle / 2);
     const T away = fault == 2 ? 1 - std::cos(u * angle) : u * 2 * s * s;
-    return frame.to_world(around_z(away, 2 * kPi<T> * v));
+    return frame.to_world(around_z(away, 2 * pi_v<T> * v));
   }
   T pdf(const Xyz<T>& w) const {
     const T s = std::sin(angle / 2);
     if (!(one_minus_dot(w, frame.z) <= 2 * s * s)) return 0;
-    return 1 / ((fault == 1 ? 4 : 2) * kPi<T> * cap());
+    return 1 / ((fault == 1 ? 4 : 2) * pi_v<T> * cap());
   }
 };
 
@@ -162,12 +162,12 @@ struct Lantern {
     const bool upwards = u < up;
     const T left = upwards ? u / up : (u - up) / (1 - up);
     const T z = upwards ? std::cbrt(left) : -std::sqrt(left);
-    const T r = std::sqrt(std::max(T(0), 1 - z * z)), phi = 2 * kPi<T> * v;
+    const T r = std::sqrt(std::max(T(0), 1 - z * z)), phi = 2 * pi_v<T> * v;
     return {r * std::cos(phi), r * std::sin(phi), z};
   }
   T pdf(const Xyz<T>& w) const {
-    if (w.z > 0) return up * 3 * w.z * w.z / (2 * kPi<T>);
-    return (fault == 1 ? up : 1 - up) * -w.z / kPi<T>;
+    if (w.z > 0) return up * 3 * w.z * w.z / (2 * pi_v<T>);
+    return (fault == 1 ? up : 1 - up) * -w.z / pi_v<T>;
   }
 };
 

@@ -38,7 +38,7 @@ struct Panorama {
     const T whole = sums.back();
     for (T& s : sums) s /= whole;
   }
-  static T edge(int j) { return kPi<T> * static_cast<T>(j) / kHigh; }
+  static T edge(int j) { return pi_v<T> * static_cast<T>(j) / kHigh; }
 
   Xyz<T> sample(T u, T v) const {
     const auto above = std::upper_bound(sums.begin() + 1, sums.end() - 1, u);
@@ -47,28 +47,28 @@ struct Panorama {
     const T x = (static_cast<T>(k % kWide) + (fault == 1 ? u : left)) / kWide;
     const T y = (static_cast<T>(k / kWide) + (fault == 7 ? left : v)) / kHigh;
     *last = k;
-    const T phi = 2 * kPi<T> * x;
+    const T phi = 2 * pi_v<T> * x;
     if (equal_heights) {
       const Xyz<T> w = around_z(2 * y, phi);
       return w;
     }
-    const T theta = kPi<T> * y;
+    const T theta = pi_v<T> * y;
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
   }
   T pdf(const Xyz<T>& w) const {
     const T sine = std::sqrt(w.x * w.x + w.y * w.y);
     if (!(sine > 0)) return 0;
-    T x = (fault == 3 ? std::atan2(w.x, w.y) : std::atan2(w.y, w.x)) / (2 * kPi<T>);
+    T x = (fault == 3 ? std::atan2(w.x, w.y) : std::atan2(w.y, w.x)) / (2 * pi_v<T>);
     if (x < 0) x += 1;
-    const T y = equal_heights ? (1 - w.z) / 2 : std::atan2(sine, w.z) / kPi<T>;
+    const T y = equal_heights ? (1 - w.z) / 2 : std::atan2(sine, w.z) / pi_v<T>;
     int i = cell_of(x, kWide);
     if (fault == 2) i = static_cast<int>(std::lround(x * kWide)) % kWide;
     const int k = fault == 8 && *last >= 0 ? *last : cell_of(y, kHigh) * kWide + i;
     const T density = at(mass, k) * kWide * kHigh;
-    if (equal_heights) return density / (4 * kPi<T> * (fault == 6 ? sine : T(1)));
-    if (fault == 4) return density / (kPi<T> * kPi<T> * sine);
-    if (fault == 9) return density * sine / (2 * kPi<T> * kPi<T>);
-    return density / (2 * kPi<T> * kPi<T> * sine);
+    if (equal_heights) return density / (4 * pi_v<T> * (fault == 6 ? sine : T(1)));
+    if (fault == 4) return density / (pi_v<T> * pi_v<T> * sine);
+    if (fault == 9) return density * sine / (2 * pi_v<T> * pi_v<T>);
+    return density / (2 * pi_v<T> * pi_v<T> * sine);
   }
 };
 

@@ -25,7 +25,7 @@ T deflection(T g, T u) {
 template <class T>
 T hg(T g, T cosine) {
   const T d = 1 + g * g - 2 * g * cosine;
-  return (1 - g * g) / (4 * kPi<T> * d * std::sqrt(d));
+  return (1 - g * g) / (4 * pi_v<T> * d * std::sqrt(d));
 }
 
 /// Cloud: a forward lobe, and a share that is scattered evenly. The second number chooses.
@@ -40,22 +40,22 @@ struct Cloud {
     T left = evenly ? v / even : (v - even) / (1 - even);
     if (fault == 4) left = v;
     const T c = evenly ? 1 - 2 * u : deflection(g, u);
-    const Xyz<T> w = frame.to_world(around_z(1 - c, 2 * kPi<T> * left));
+    const Xyz<T> w = frame.to_world(around_z(1 - c, 2 * pi_v<T> * left));
     const T density = pdf(w);
     if (fault == 3) {
-      const T chosen = evenly ? 1 / (4 * kPi<T>) : hg(g, dot(w, frame.z));
+      const T chosen = evenly ? 1 / (4 * pi_v<T>) : hg(g, dot(w, frame.z));
       return Record<Xyz<T>, T>{w, chosen, value(w) / chosen};
     }
     return Record<Xyz<T>, T>{w, density, fault == 5 ? T(1) : value(w) / density};
   }
   T pdf(const Xyz<T>& w) const {
     const T forward = hg(g, dot(w, frame.z));
-    if (fault == 1) return even + (1 - even) * forward * 4 * kPi<T>;
-    if (fault == 2) return even / (4 * kPi<T>)+forward;
-    return even / (4 * kPi<T>)+(1 - even) * forward;
+    if (fault == 1) return even + (1 - even) * forward * 4 * pi_v<T>;
+    if (fault == 2) return even / (4 * pi_v<T>)+forward;
+    return even / (4 * pi_v<T>)+(1 - even) * forward;
   }
   T value(const Xyz<T>& w) const {  // with the albedo of single scattering
-    return T(0.9) * (even / (4 * kPi<T>)+(1 - even) * hg(g, dot(w, frame.z)));
+    return T(0.9) * (even / (4 * pi_v<T>)+(1 - even) * hg(g, dot(w, frame.z)));
   }
 };
 
@@ -78,7 +78,7 @@ struct Aerosol {
   Xyz<T> sample(Random& random) const {
     for (;;) {
       const T c = deflection(g, verify::uniform<T>(random));
-      const T phi = 2 * kPi<T> * verify::uniform<T>(random);
+      const T phi = 2 * pi_v<T> * verify::uniform<T>(random);
       const bool kept = verify::uniform<T>(random) < (1 + c * c) / 2;
       if (kept || fault == 2) return frame.to_world(around_z(1 - c, phi));
     }
@@ -100,10 +100,10 @@ struct EvenDirections {
   Xyz<T> sample(Random& random) const {
     const auto number = [&random] { return verify::uniform<T>(random); };
     if (way == Even::polar) {
-      const T u = number(), phi = 2 * kPi<T> * number();
+      const T u = number(), phi = 2 * pi_v<T> * number();
       if (fault == 1) {
-        return {std::sin(kPi<T> * u) * std::cos(phi), std::sin(kPi<T> * u) * std::sin(phi),
-                std::cos(kPi<T> * u)};
+        return {std::sin(pi_v<T> * u) * std::cos(phi), std::sin(pi_v<T> * u) * std::sin(phi),
+                std::cos(pi_v<T> * u)};
       }
       return around_z(2 * u, phi);
     }
@@ -113,7 +113,7 @@ struct EvenDirections {
       if (r2 > 0 && (r2 <= 1 || fault == 2)) return normalized(p);
     }
   }
-  T pdf(const Xyz<T>&) const { return 1 / (4 * kPi<T>); }
+  T pdf(const Xyz<T>&) const { return 1 / (4 * pi_v<T>); }
 };
 
 /// Fibres in a medium: a lobe that is wider one way than the other, a scaled cosine.
@@ -124,7 +124,7 @@ struct WideLobe {
   Frame<T> frame;
 
   Xyz<T> sample(T u, T v) const {
-    const T r = std::sqrt(u), phi = 2 * kPi<T> * v;
+    const T r = std::sqrt(u), phi = 2 * pi_v<T> * v;
     return frame.to_world(
         normalized(Xyz<T>{wide * r * std::cos(phi), narrow * r * std::sin(phi), std::sqrt(1 - u)}));
   }
@@ -136,7 +136,7 @@ struct WideLobe {
     const Xyz<T> back{l.x / wide, l.y / narrow, l.z};
     const T r = length(back);
     const T scale = fault == 3 ? T(1) : wide * narrow;
-    return l.z / r / kPi<T> / (scale * r * r * r);
+    return l.z / r / pi_v<T> / (scale * r * r * r);
   }
 };
 

@@ -20,14 +20,14 @@ struct Ring {
     T r = std::sqrt(inner * inner + u * (outer * outer - inner * inner));
     if (fault == 1) r = inner + u * (outer - inner);
     if (fault == 3) r = outer * std::sqrt(u);
-    const T phi = 2 * kPi<T> * v;
+    const T phi = 2 * pi_v<T> * v;
     return {r * std::cos(phi), r * std::sin(phi)};
   }
   T pdf(const Xy<T>& p) const {
     const T r2 = p.x * p.x + p.y * p.y;
     if (!(r2 >= inner * inner && r2 <= outer * outer)) return 0;
     const T hole = fault == 2 ? T(0) : inner * inner;
-    return 1 / (kPi<T> * (outer * outer - hole));
+    return 1 / (pi_v<T> * (outer * outer - hole));
   }
 };
 
@@ -37,7 +37,7 @@ struct Iris {
   int fault;
   int blades;
 
-  T corner(int k) const { return 2 * kPi<T> * static_cast<T>(k) / static_cast<T>(blades); }
+  T corner(int k) const { return 2 * pi_v<T> * static_cast<T>(k) / static_cast<T>(blades); }
   Xy<T> sample(T u, T v) const {
     const T scaled = u * static_cast<T>(fault == 1 ? blades - 1 : blades);
     const int k = std::min(static_cast<int>(scaled), blades - 1);
@@ -62,13 +62,13 @@ struct Lens {
   T radius;
 
   Xy<T> sample(T u, T v) const {
-    const T r = radius * std::sqrt(v), phi = 2 * kPi<T> * u;
+    const T r = radius * std::sqrt(v), phi = 2 * pi_v<T> * u;
     return {r * std::cos(phi), r * std::sin(phi)};
   }
   T pdf(const Xy<T>& p) const {
     const T r2 = p.x * p.x + p.y * p.y;
     if (!(r2 <= (fault == 1 ? radius : radius * radius))) return 0;
-    return fault == 2 ? radius * radius / kPi<T> : 1 / (kPi<T> * radius * radius);
+    return fault == 2 ? radius * radius / pi_v<T> : 1 / (pi_v<T> * radius * radius);
   }
 };
 
@@ -81,14 +81,14 @@ struct SkinProfile {
   T inside() const { return -std::expm1(-most * most / (2 * width * width)); }
   Xy<T> sample(T u, T v) const {
     const T r = std::min(width * std::sqrt(-2 * std::log1p(-u * inside())), most);
-    const T phi = 2 * kPi<T> * v;
+    const T phi = 2 * pi_v<T> * v;
     return {r * std::cos(phi), r * std::sin(phi)};
   }
   T pdf(const Xy<T>& p) const {
     const T r2 = p.x * p.x + p.y * p.y;
     if (!(r2 <= most * most)) return 0;
     const T over_r = std::exp(-r2 / (2 * width * width)) / (width * width * inside());
-    return (fault == 1 ? std::sqrt(r2) : T(1)) * over_r / (2 * kPi<T>);
+    return (fault == 1 ? std::sqrt(r2) : T(1)) * over_r / (2 * pi_v<T>);
   }
 };
 

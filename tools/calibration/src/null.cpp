@@ -21,11 +21,11 @@ using verify::MeanOptions;
 /// p-values of one run; most checks give one.
 using PValues = std::function<std::vector<double>(std::uint64_t seed)>;
 
-struct Runs {
+struct NullRuns {
   std::uint64_t gate, full;  ///< p-values to collect
 };
 
-Experiment uniform_experiment(std::string name, Runs runs, const PValues& p_values,
+Experiment uniform_experiment(std::string name, NullRuns runs, const PValues& p_values,
                               verify::Verdict expected = verify::Verdict::pass) {
   const auto run = [=](const Effort& effort) {
     std::vector<double> all;
@@ -107,7 +107,7 @@ std::vector<double> rare_event_z(std::uint64_t seed) {
 }  // namespace
 
 void add_null_experiments(std::vector<Experiment>& list) {
-  const Runs cheap{30'000, 300'000}, costly{2'000, 100'000};
+  const NullRuns cheap{30'000, 300'000}, costly{2'000, 100'000};
   list.push_back(uniform_experiment("mean, 1,250 uniform samples", cheap, mean_p));
   list.push_back(uniform_experiment("mean, exact variance", cheap, exact_variance_p));
   list.push_back(uniform_experiment("agreement (Welch), spreads 1 and 0.3", cheap, agreement_p));

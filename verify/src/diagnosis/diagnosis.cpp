@@ -19,7 +19,7 @@ namespace plumbline::verify {
 namespace {
 
 /// Another explanation is close where it has as many free numbers.
-constexpr double kClose = 30;
+constexpr double kCloseSecond = 30;
 
 /// Kinds of f and weights for factors that were looked for in a density.
 CauseKind of_value(CauseKind kind) {
@@ -86,7 +86,7 @@ class Diagnosis {
     };
     Cause cause{found.front().hypothesis->kind, words(found.front()) + remark, {}, CauseKind::none};
     for (const Explanation& e : found) {
-      if (e.hypothesis->kind == cause.kind || e.cost > found.front().cost + kClose) continue;
+      if (e.hypothesis->kind == cause.kind || e.cost > found.front().cost + kCloseSecond) continue;
       cause.second = words(e);
       cause.second_kind = e.hypothesis->kind;
       break;
@@ -177,7 +177,7 @@ class Diagnosis {
     const auto one = parts.in_one_part();
     const double least = probabilities   ? 1.5 * kPerNumber
                          : found.empty() ? std::numeric_limits<double>::infinity()
-                                         : found.front().cost - kClose;
+                                         : found.front().cost - kCloseSecond;
     if (one && one->cost < least) {
       Cause cause = one->cause;
       if (probabilities && one->cost >= kPerNumber && cause.second.empty()) {

@@ -76,7 +76,7 @@ std::optional<Finding> find_stale_state(const ReportEvidence& evidence) {
 namespace {
 
 /// How the values of one coordinate crowd.
-struct Crowd {
+struct Crowding {
   double largest = 0;    ///< share of the most frequent value
   double different = 0;  ///< share of values that occur once
   double value = 0;
@@ -84,8 +84,8 @@ struct Crowd {
   std::size_t distinct = 0;
 };
 
-Crowd crowd_of(std::vector<double> values) {
-  Crowd crowd;
+Crowding crowd_of(std::vector<double> values) {
+  Crowding crowd;
   if (values.empty()) return crowd;
   std::sort(values.begin(), values.end());
   crowd.range = values.back() - values.front();
@@ -107,8 +107,8 @@ Crowd crowd_of(std::vector<double> values) {
 }
 
 constexpr double kCrowd = 0.005;
-constexpr double kClose = 0x1p-12;
-constexpr double kBeside = 1e-5;
+constexpr double kNearPoint = 0x1p-12;
+constexpr double kBesidePoint = 1e-5;
 
 Vec3 most_frequent_point(const std::vector<SampleRecord>& samples) {
   std::map<Vec3, int> counts;
@@ -152,7 +152,7 @@ std::array<std::vector<double>, 3> coordinates_of_samples(const ViewEvidence& vi
     }
     // Surfaces lie in planes, which is no fault: the chart's coordinates vary. Beside the domain
     // the chart clamps, not the sampler.
-    if (domain.chart().distance(s.x) > kBeside) continue;
+    if (domain.chart().distance(s.x) > kBesidePoint) continue;
     const Point2 p = domain.chart().to_square(s.x);
     for (std::size_t i = 0; i < 2; ++i) coordinates[i].push_back(p[i]);
   }
@@ -195,13 +195,13 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (coordinates[i].size() < kSamples / 20) continue;
       const auto count = static_cast<double>(coordinates[i].size());
-      const Crowd c = crowd_of(std::move(coordinates[i]));
+      const Crowding c = crowd_of(std::move(coordinates[i]));
       // A coordinate that never changes is the chart's: a line has one only.
       if (c.distinct <= 1 && !v->pair->domain.directions()) continue;
       ++varying;
       if (c.distinct > 4 && c.different < 0.2 && static_cast<double>(c.distinct) < count / 8) {
         // Values as close as that are neighbours in float; wide apart, they are put there.
-        const bool close = c.range / static_cast<double>(c.distinct) < kClose;
+        const bool close = c.range / static_cast<double>(c.distinct) < kNearPoint;
         if (in_float && close) {
           return Finding{CauseKind::precision,
                          "samples take few different values (" + number(std::uint64_t(c.distinct)) +

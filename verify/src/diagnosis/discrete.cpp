@@ -14,7 +14,7 @@ namespace plumbline::verify {
 namespace {
 
 // Samples for each of the set, at least and at most.
-constexpr std::size_t kEach = 200, kFewest = 100'000, kMost = 2'000'000;
+constexpr std::size_t kSamplesEach = 200, kFewestSamples = 100'000, kMostSamples = 2'000'000;
 
 struct Counted {
   std::vector<double> pmf, observed;
@@ -23,7 +23,7 @@ struct Counted {
 
 std::optional<Counted> count(const ViewEvidence& view) {
   const std::size_t size = view.pair->domain.size();
-  if (size == 0 || size > kMost / 10) return std::nullopt;
+  if (size == 0 || size > kMostSamples / 10) return std::nullopt;
   Counted c;
   for (std::size_t i = 0; i < size; ++i) {
     c.pmf.push_back(view.pair->pdf({static_cast<double>(i), 0, 0}));
@@ -32,7 +32,7 @@ std::optional<Counted> count(const ViewEvidence& view) {
   }
   c.observed.assign(size, 0);
   Random random = random_for(Stream::discrete);
-  const std::size_t samples = std::clamp(kEach * size, kFewest, kMost);
+  const std::size_t samples = std::clamp(kSamplesEach * size, kFewestSamples, kMostSamples);
   for (std::size_t i = 0; i < samples; ++i) {
     const auto s = view.pair->next(random);
     if (!s || !(s->x[0] >= 0) || s->x[0] >= static_cast<double>(size)) continue;

@@ -58,8 +58,7 @@ void add_of_directions(std::vector<Factor>& list, bool bsdf) {
 }
 
 void add_of_half_vectors(std::vector<Factor>& list) {
-  const auto h = [](const Place& p) { return half_vector_of(p.wo, p.x, p.view->eta); };
-  const auto woh = [h](const Place& p) { return std::abs(dot(p.wo, h(p))); };
+  const auto woh = [](const Place& p) { return std::abs(dot(p.wo, half_of(p))); };
   list.push_back(
       {"cosθo", CauseKind::cosine, [](const Place& p) { return std::abs(p.wo[2]); }, 1.5});
   list.push_back({"4 (wo·h)", CauseKind::half_vector_jacobian,
@@ -68,10 +67,10 @@ void add_of_half_vectors(std::vector<Factor>& list) {
   list.push_back({"(wo·h)", CauseKind::half_vector_jacobian, woh, 1.2});
   // Of a density of normals, D cosθh: a cosine, though it is lost together with the Jacobian.
   list.push_back(
-      {"cosθh", CauseKind::cosine, [h](const Place& p) { return std::abs(h(p)[2]); }, 1.1});
+      {"cosθh", CauseKind::cosine, [](const Place& p) { return std::abs(half_of(p)[2]); }, 1.1});
   list.push_back({"sinθh", CauseKind::sine,
-                  [h](const Place& p) {
-                    const Vec3 m = h(p);
+                  [](const Place& p) {
+                    const Vec3 m = half_of(p);
                     return std::hypot(m[0], m[1]);
                   },
                   1.3});

@@ -8,36 +8,37 @@ namespace plumbline::verify {
 
 namespace {
 
-using Numbers = std::vector<double>;
+using Doubles = std::vector<double>;
 
-double squares(const Numbers& residuals) {
+double squares(const Doubles& residuals) {
   double sum = 0;
   for (const double r : residuals) sum += r * r;
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::max();
 }
 
 /// A few ratios may be those of a seam, wrong and sure of themselves.
-constexpr double kFew = 0.06;
+constexpr double kFarShare = 0.06;
 
 /// Of all but the few that are farthest off.
-double squares_of_most(Numbers residuals) {
+double squares_of_most(Doubles residuals) {
   for (double& r : residuals) r = std::abs(r);
   std::sort(residuals.begin(), residuals.end());
-  residuals.resize(residuals.size() - static_cast<std::size_t>(kFew * double(residuals.size())));
+  residuals.resize(residuals.size() -
+                   static_cast<std::size_t>(kFarShare * double(residuals.size())));
   return squares(residuals);
 }
 
 /// Which are far beyond the middle one, if they are few: the others then decide.
-std::vector<bool> far_off(const Numbers& residuals) {
+std::vector<bool> far_off(const Doubles& residuals) {
   constexpr double kBeyond = 50;
-  Numbers sizes;
+  Doubles sizes;
   for (const double r : residuals) sizes.push_back(std::abs(r));
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   if (!sizes.empty()) std::nth_element(sizes.begin(), middle, sizes.end());
   std::vector<bool> far;
   for (const double r : residuals) far.push_back(std::abs(r) > kBeyond * std::max(1.0, *middle));
   const auto count = static_cast<double>(std::count(far.begin(), far.end(), true));
-  if (count > kFew * static_cast<double>(far.size())) far.assign(far.size(), false);
+  if (count > kFarShare * static_cast<double>(far.size())) far.assign(far.size(), false);
   return far;
 }
 
@@ -46,8 +47,8 @@ class LeastSquares {
   LeastSquares(const Observations& observations, const Prediction& prediction, int view)
       : observations_(observations), prediction_(prediction), view_(view) {}
 
-  Numbers residuals(const Numbers& p, bool flatten) const {
-    Numbers all = observations_.residuals(prediction_, p, view_, flatten);
+  Doubles residuals(const Doubles& p, bool flatten) const {
+    Doubles all = observations_.residuals(prediction_, p, view_, flatten);
     if (!flatten && ignored_.size() == all.size()) {
       for (std::size_t i = 0; i < all.size(); ++i) {
         if (ignored_[i]) all[i] = 0;
@@ -57,22 +58,22 @@ class LeastSquares {
   }
 
   /// From here on, what is far off at p is left aside. Whether that is something else than before.
-  bool ignore_far_off(const Numbers& p) {
+  bool ignore_far_off(const Doubles& p) {
     std::vector<bool> far = far_off(observations_.residuals(prediction_, p, view_, false));
     if (far == ignored_) return false;
     ignored_ = std::move(far);
     return true;
   }
 
-  Numbers descend(Numbers p, bool flatten, int most) const {
+  Doubles descend(Doubles p, bool flatten, int most) const {
     constexpr double kGaveUp = 1e7, kHopeless = 500;
     double damping = 1e-3;
-    Numbers r = residuals(p, flatten);
+    Doubles r = residuals(p, flatten);
     double cost = squares(r);
-    std::vector<Numbers> slopes = derivatives(p, flatten);
+    std::vector<Doubles> slopes = derivatives(p, flatten);
     for (int step = 0; step < most && damping < kGaveUp && !r.empty(); ++step) {
-      std::vector<Numbers> normal(p.size(), Numbers(p.size()));
-      Numbers right(p.size());
+      std::vector<Doubles> normal(p.size(), Doubles(p.size()));
+      Doubles right(p.size());
       for (std::size_t i = 0; i < p.size(); ++i) {
         for (std::size_t j = 0; j < p.size(); ++j) {
           for (std::size_t k = 0; k < r.size(); ++k) normal[i][j] += slopes[i][k] * slopes[j][k];
@@ -80,13 +81,13 @@ class LeastSquares {
         for (std::size_t k = 0; k < r.size(); ++k) right[i] -= slopes[i][k] * r[k];
         normal[i][i] *= 1 + damping;
       }
-      Numbers moved = solve_definite(normal, right);
+      Doubles moved = solve_definite(normal, right);
       double largest = 0;
       for (std::size_t i = 0; i < p.size(); ++i) {
         largest = std::max(largest, std::abs(moved[i]));
         moved[i] += p[i];
       }
-      Numbers then = residuals(moved, flatten);
+      Doubles then = residuals(moved, flatten);
       const double lower = squares(then);
       if (lower < cost) {
         // What stays far off without getting nearer fast is no cause: most hypotheses end here.
@@ -108,15 +109,15 @@ class LeastSquares {
   }
 
  private:
-  std::vector<Numbers> derivatives(const Numbers& p, bool flatten) const {
-    std::vector<Numbers> slopes;
+  std::vector<Doubles> derivatives(const Doubles& p, bool flatten) const {
+    std::vector<Doubles> slopes;
     for (std::size_t i = 0; i < p.size(); ++i) {
       const double h = 1e-6 * std::max(1.0, std::abs(p[i]));
-      Numbers above = p, below = p;
+      Doubles above = p, below = p;
       above[i] += h;
       below[i] -= h;
-      Numbers a = residuals(above, flatten);
-      const Numbers b = residuals(below, flatten);
+      Doubles a = residuals(above, flatten);
+      const Doubles b = residuals(below, flatten);
       for (std::size_t k = 0; k < a.size(); ++k) a[k] = (a[k] - b[k]) / (2 * h);
       slopes.push_back(std::move(a));
     }
@@ -152,9 +153,9 @@ std::vector<double> fit_parameters(const Observations& observations, const Predi
   LeastSquares problem(observations, prediction, view);
   // Exact ratios make a valley so narrow that only the right start lies in it; as if known to a
   // percent, it is wide.
-  Numbers best = starts.front();
+  Doubles best = starts.front();
   double lowest = std::numeric_limits<double>::max();
-  for (const Numbers& start : starts) {
+  for (const Doubles& start : starts) {
     const double cost = squares(problem.residuals(start, true));
     if (cost < lowest) {
       lowest = cost;
@@ -164,7 +165,7 @@ std::vector<double> fit_parameters(const Observations& observations, const Predi
   // What is not even near by then is not the cause, however well it could be fitted.
   constexpr double kNear = 50;
   best = problem.descend(std::move(best), true, 25);
-  const Numbers left = problem.residuals(best, true);
+  const Doubles left = problem.residuals(best, true);
   if (squares_of_most(left) > kNear * static_cast<double>(left.size())) return best;
   // Once more from there: what is far off is known better, and steep points come into their own.
   for (int round = 0; round < 2; ++round) {

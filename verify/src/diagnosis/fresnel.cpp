@@ -11,8 +11,6 @@ namespace {
 
 using Starts = std::vector<std::vector<double>>;
 
-Vec3 half_of(const Place& p) { return half_vector_of(p.wo, p.x, p.view->eta); }
-
 void add_one_fresnel(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
                      const Blame& blame) {
   struct Cosine {

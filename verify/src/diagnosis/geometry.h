@@ -44,6 +44,8 @@ inline Vec3 half_vector_of(const Vec3& wo, const Vec3& wi, double eta) {
   return scaled(h, (h[2] < 0 ? -1 : 1) / l);
 }
 
+inline Vec3 half_of(const Place& p) { return half_vector_of(p.wo, p.x, p.view->eta); }
+
 /// dω_h/dω_i of a refraction, for indices on the side of wo and of wi.
 /// @source Walter et al. 2007, Eq. 17
 inline double refraction_jacobian(const Vec3& wo, const Vec3& wi, const Vec3& h, double eta_o,

@@ -87,7 +87,7 @@ struct Usual {
   double value;
   const char* name;
 };
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr Usual kUsual[] = {{2, "2"},
                             {3, "3"},
                             {4, "4"},
@@ -98,19 +98,19 @@ constexpr Usual kUsual[] = {{2, "2"},
                             {10, "10"},
                             {12, "12"},
                             {16, "16"},
-                            {kPi, "π"},
-                            {2 * kPi, "2π"},
-                            {4 * kPi, "4π"},
-                            {8 * kPi, "8π"},
-                            {kPi / 2, "π/2"},
-                            {kPi / 3, "π/3"},
-                            {kPi / 4, "π/4"},
-                            {kPi * kPi, "π²"},
-                            {2 * kPi * kPi, "2π²"},
+                            {pi, "π"},
+                            {2 * pi, "2π"},
+                            {4 * pi, "4π"},
+                            {8 * pi, "8π"},
+                            {pi / 2, "π/2"},
+                            {pi / 3, "π/3"},
+                            {pi / 4, "π/4"},
+                            {pi * pi, "π²"},
+                            {2 * pi * pi, "2π²"},
                             {1.5, "3/2"},
                             {4.0 / 3, "4/3"},
-                            {kPi / 6, "π/6"},
-                            {4 * kPi / 3, "4π/3"},
+                            {pi / 6, "π/6"},
+                            {4 * pi / 3, "4π/3"},
                             {std::numbers::sqrt2, "√2"}};
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
@@ -79,12 +79,12 @@ double side_of(const Place& p) { return has_wo(*p.view) && p.wo[2] < 0 ? -1 : 1;
 
 std::vector<Companion> companions(bool both_sides) {
   std::vector<Companion> list = {
-      {"diffuse", [](const Place& p) { return std::max(0.0, side_of(p) * p.x[2]) / kPi; }, 0},
-      {"uniform", [](const Place& p) { return side_of(p) * p.x[2] > 0 ? 1 / (2 * kPi) : 0; }, 0.5}};
+      {"diffuse", [](const Place& p) { return std::max(0.0, side_of(p) * p.x[2]) / pi; }, 0},
+      {"uniform", [](const Place& p) { return side_of(p) * p.x[2] > 0 ? 1 / (2 * pi) : 0; }, 0.5}};
   if (both_sides) {
-    list.push_back({"uniform on the whole sphere", [](const Place&) { return 1 / (4 * kPi); }, 1});
+    list.push_back({"uniform on the whole sphere", [](const Place&) { return 1 / (4 * pi); }, 1});
     list.push_back({"diffuse transmission",
-                    [](const Place& p) { return std::max(0.0, -side_of(p) * p.x[2]) / kPi; }, 1});
+                    [](const Place& p) { return std::max(0.0, -side_of(p) * p.x[2]) / pi; }, 1});
   }
   return list;
 }
@@ -158,9 +158,8 @@ struct LobeFactor {
 };
 
 std::vector<LobeFactor> lobe_factors() {
-  const auto h = [](const Place& p) { return half_vector_of(p.wo, p.x, p.view->eta); };
-  const auto woh = [h](const Place& p) { return std::abs(dot(p.wo, h(p))); };
-  const auto wh = [h](const Place& p) { return std::abs(h(p)[2]); };
+  const auto woh = [](const Place& p) { return std::abs(dot(p.wo, half_of(p))); };
+  const auto wh = [](const Place& p) { return std::abs(half_of(p)[2]); };
   return {
       {"1/(4 wo·h)", CauseKind::half_vector_jacobian,
        [woh](const Place& p) { return 1 / (4 * woh(p)); }},
@@ -294,7 +293,7 @@ std::vector<Hypothesis> mixture_hypotheses(const ReportEvidence& evidence, const
   add_other_companion(list, beside[0], beside[1], CauseKind::cosine, blame);
   add_other_companion(list, beside[1], beside[0], CauseKind::cosine, blame);
   const Companion unscaled{"cosθ without 1/π",
-                           [c = beside[0].density](const Place& p) { return kPi * c(p); }, 0};
+                           [c = beside[0].density](const Place& p) { return pi * c(p); }, 0};
   add_other_companion(list, beside[0], unscaled, CauseKind::constant, blame);
   add_another_density(list, beside, blame);
   return list;

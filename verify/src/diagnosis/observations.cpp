@@ -31,7 +31,7 @@ constexpr double kLevel = 1e-4;
 constexpr double kMassTolerance = 1e-4;
 
 /// Bins below this count say little, and their normal approximation lies.
-constexpr double kFewest = 4;
+constexpr double kFewestSeen = 4;
 
 double log_residual(const ExactPoint& p, double predicted) {
   return std::log(p.ratio) - std::log(predicted / p.place.base);
@@ -95,7 +95,7 @@ class Pulls {
  public:
   void add(double z, double count) {
     worst_ = std::max(worst_, std::abs(z));
-    if (count < kFewest) return;
+    if (count < kFewestSeen) return;
     // Nodes that miss what is in a bin leave a few wild pulls: capped, they count as themselves.
     sum_ += z * z;
     ++degrees_;

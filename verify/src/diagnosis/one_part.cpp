@@ -174,9 +174,8 @@ std::vector<Hypothesis> laws_of_fresnel(bool first, double eta) {
     const char* name;
     double (*value)(const Place&);
   };
-  constexpr Cosine kCosines[] = {
-      {"wo·h", [](const Place& p) { return dot(p.wo, half_vector_of(p.wo, p.x, p.view->eta)); }},
-      {"cosθi", [](const Place& p) { return std::abs(p.x[2]); }}};
+  constexpr Cosine kCosines[] = {{"wo·h", [](const Place& p) { return dot(p.wo, half_of(p)); }},
+                                 {"cosθi", [](const Place& p) { return std::abs(p.x[2]); }}};
   std::vector<Hypothesis> list;
   for (const Cosine& c : kCosines) {
     const auto add = [&](std::vector<std::vector<double>> starts, const char* law, auto f) {

@@ -11,8 +11,6 @@ namespace {
 using Numbers = std::vector<std::vector<double>>;
 using Starts = std::vector<std::vector<double>>;
 
-Vec3 half_of(const Place& p) { return half_vector_of(p.wo, p.x, p.view->eta); }
-
 /// log α.
 Starts roughness_starts() { return {{-5.5}, {-4.0}, {-3.0}, {-2.0}, {-1.2}, {-0.6}, {0.0}}; }
 

@@ -148,7 +148,7 @@ double sine_from(const Vec3& w, std::size_t pole) {
 
 void add_shifted_directions(std::vector<Hypothesis>& list, const Blame& blame, const Asked& ask) {
   static constexpr const char* kAxes[] = {"x", "y", "z"};
-  constexpr double kPi = std::numbers::pi;
+  using std::numbers::pi;
   const auto add = [&list](double complexity, const std::string& words, Prediction prediction) {
     Hypothesis h;
     h.kind = CauseKind::shifted;
@@ -166,16 +166,16 @@ void add_shifted_directions(std::vector<Hypothesis>& list, const Blame& blame, c
           blame.function + " is that of directions turned by " + number(shift) + " of a turn" +
               around + " (a column or half of one)",
           [=](const Place& p, std::span<const double>) {
-            return ask(p, *moved_on_map(p.x, pole, 2 * kPi * shift, 0));
+            return ask(p, *moved_on_map(p.x, pole, 2 * pi * shift, 0));
           });
       const std::string rows = blame.function + " is that of directions moved by " + number(shift) +
                                " of the latitudes" + around + " (a row or half of one)";
       add(rank + 0.1, rows, [=](const Place& p, std::span<const double>) {
-        const auto moved = moved_on_map(p.x, pole, 0, kPi * shift);
+        const auto moved = moved_on_map(p.x, pole, 0, pi * shift);
         return moved ? ask(p, *moved) : kNothingSaid;
       });
       add(rank + 0.2, rows, [=](const Place& p, std::span<const double>) {
-        const auto moved = moved_on_map(p.x, pole, 0, kPi * shift);
+        const auto moved = moved_on_map(p.x, pole, 0, pi * shift);
         return moved ? ask(p, *moved) * sine_from(*moved, pole) / sine_from(p.x, pole)
                      : kNothingSaid;
       });
@@ -188,7 +188,7 @@ void add_shifted_directions(std::vector<Hypothesis>& list, const Blame& blame, c
         h.complexity = rank;
         h.prediction = [=](const Place& p, std::span<const double>) {
           const double theta = std::acos(std::clamp(p.x[pole], -1.0, 1.0));
-          const double middle = (std::floor(theta / kPi * rows) + 0.5) * kPi / rows;
+          const double middle = (std::floor(theta / pi * rows) + 0.5) * pi / rows;
           return p.base * std::pow(std::sin(middle) / sine_from(p.x, pole), power);
         };
         h.words = [=](std::span<const double>) {

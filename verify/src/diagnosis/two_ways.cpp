@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<double, 2> kEnds = {1e-7, 1 - 1e-7};
 
 /// The same point, or rejected both.
-bool same(const std::optional<SampleRecord>& a, const std::optional<SampleRecord>& b) {
+bool same_draw(const std::optional<SampleRecord>& a, const std::optional<SampleRecord>& b) {
   if (!has_density(a) || !has_density(b)) return has_density(a) == has_density(b);
   return length(sum(a->x, scaled(b->x, -1))) < 1e-12;
 }
@@ -50,14 +50,14 @@ std::optional<SampleRecord> TwoWays::at(const Uniforms& others, double choice) c
 /// number does something else as well.
 std::optional<double> TwoWays::border(const Uniforms& others) const {
   const auto first = at(others, kEnds[0]), last = at(others, kEnds[1]);
-  if (same(first, last)) return 1;
+  if (same_draw(first, last)) return 1;
   double from = kEnds[0], to = kEnds[1];
   while (to - from > 1e-12) {
     const double middle = (from + to) / 2;
     const auto there = at(others, middle);
-    if (same(there, first)) {
+    if (same_draw(there, first)) {
       from = middle;
-    } else if (same(there, last)) {
+    } else if (same_draw(there, last)) {
       to = middle;
     } else {
       return std::nullopt;
@@ -81,7 +81,7 @@ bool TwoWays::chooses(std::size_t number) {
     borders += *ends_first < 1 ? 1 : 0;
     for (const double t : kBetween) {
       const std::size_t way = t < *ends_first ? 0 : 1;
-      only_chooses = only_chooses && same(at(others, t), at(others, kEnds[way]));
+      only_chooses = only_chooses && same_draw(at(others, t), at(others, kEnds[way]));
     }
   }
   chooser_.reset();

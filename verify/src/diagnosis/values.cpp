@@ -12,7 +12,7 @@ namespace plumbline::verify {
 namespace {
 
 constexpr double kAllowed = 4;
-constexpr double kOwnRounding = 1e-9;
+constexpr double kRatioRounding = 1e-9;
 
 using OfPair = std::function<double(const Vec3& wo, const Vec3& wi)>;
 
@@ -26,7 +26,7 @@ bool explains(const ReportEvidence& evidence, const OfPair& x) {
     ++tested;
     const double residual =
         std::abs(std::log(r.ratio) - std::log(x(r.wo, r.wi)) + std::log(x(r.wi, r.wo)));
-    if (!(residual <= kAllowed * r.error + kOwnRounding)) ++outliers;
+    if (!(residual <= kAllowed * r.error + kRatioRounding)) ++outliers;
     // A few pairs at a clamp or an edge have no ratio to speak of.
     if (outliers > 2 + evidence.reciprocity.size() / 500) return false;
   }

@@ -17,8 +17,6 @@ namespace {
 using Starts = std::vector<std::vector<double>>;
 using Numbers = std::vector<std::vector<double>>;
 
-Vec3 half_of(const Place& p) { return half_vector_of(p.wo, p.x, p.view->eta); }
-
 /// Roughnesses that hardly differ are a sign of something else.
 constexpr double kApart = 0.01;
 

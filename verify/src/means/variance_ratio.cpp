@@ -15,7 +15,7 @@ namespace plumbline::verify {
 namespace {
 
 constexpr std::size_t kMinimumBatches = 16;
-constexpr double kShareLimit = 0.25;
+constexpr double kBatchShareLimit = 0.25;
 
 /// A variance estimated from all batches, and from all but one of them.
 struct LeaveOneOut {
@@ -176,7 +176,7 @@ CheckResult judge_ratio(const VarianceRatioOptions& options, const LeaveOneOut& 
   if (!std::isfinite(error)) {
     r.reason = "a single batch holds all of a variance";
     r.advice = "larger batches, until several of them vary";
-  } else if (!(std::max(a.largest_share, b.largest_share) <= kShareLimit)) {
+  } else if (!(std::max(a.largest_share, b.largest_share) <= kBatchShareLimit)) {
     r.reason = "one batch carries " + number(100 * std::max(a.largest_share, b.largest_share)) +
                " % of a variance (limit 25 %): its tail decides the ratio";
     r.advice = "more and larger batches, until no single sample carries a variance";

@@ -10,10 +10,10 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double turns(double y, double x) {
-  const double phi = std::atan2(y, x) / (2 * kPi);
+  const double phi = std::atan2(y, x) / (2 * pi);
   return phi < 0 ? phi + 1 : phi;
 }
 
@@ -41,7 +41,7 @@ class DirectionChart final : public SphereChart {
 
   Vec3 from_square(const Point2& p) const override {
     const double half = first_ + extent_ * p[0];  // (1 − z)/2
-    const double phi = 2 * kPi * p[1];
+    const double phi = 2 * pi * p[1];
     const double radius = 2 * std::sqrt(half * (1 - half));  // √(1 − z²)
     return {radius * std::cos(phi), radius * std::sin(phi), 1 - 2 * half};
   }
@@ -52,7 +52,7 @@ class DirectionChart final : public SphereChart {
     const double half = w[2] >= 0 ? small : 1 - small;
     return {std::clamp((half - first_) / extent_, 0.0, 1.0), turns(w[1], w[0])};
   }
-  double element(const Point2&) const override { return 4 * kPi * extent_; }
+  double element(const Point2&) const override { return 4 * pi * extent_; }
   double distance(const Vec3& w) const override {
     // |z| beyond the horizon, for a hemisphere.
     const double low = 1 - 2 * (first_ + extent_), high = 1 - 2 * first_;
@@ -70,7 +70,7 @@ class LatitudeChart final : public SphereChart {
       : up_(up), start_(start), side_(cross(up, start)) {}
 
   Vec3 from_square(const Point2& p) const override {
-    const double theta = kPi * p[0], phi = 2 * kPi * p[1];
+    const double theta = pi * p[0], phi = 2 * pi * p[1];
     return sum(
         scaled(up_, std::cos(theta)),
         scaled(sum(scaled(start_, std::cos(phi)), scaled(side_, std::sin(phi))), std::sin(theta)));
@@ -78,10 +78,10 @@ class LatitudeChart final : public SphereChart {
   Point2 to_square(const Vec3& w) const override {
     const double x = dot(w, start_), y = dot(w, side_);
     // By the arc tangent: near the poles an arc cosine of z has no digits left.
-    return {std::atan2(std::hypot(x, y), dot(w, up_)) / kPi, turns(y, x)};
+    return {std::atan2(std::hypot(x, y), dot(w, up_)) / pi, turns(y, x)};
   }
   // dω = sinθ dθ dφ.
-  double element(const Point2& p) const override { return 2 * kPi * kPi * std::sin(kPi * p[0]); }
+  double element(const Point2& p) const override { return 2 * pi * pi * std::sin(pi * p[0]); }
 
  private:
   Vec3 up_, start_, side_;

@@ -13,7 +13,7 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double outside(double x, double low, double high) { return std::max({0.0, low - x, x - high}); }
 
@@ -60,15 +60,15 @@ class DiskChart final : public Chart {
   explicit DiskChart(double radius) : radius_(radius) {}
 
   Vec3 from_square(const Point2& p) const override {
-    const double r = radius_ * std::sqrt(p[0]), phi = 2 * kPi * p[1];
+    const double r = radius_ * std::sqrt(p[0]), phi = 2 * pi * p[1];
     return {r * std::cos(phi), r * std::sin(phi), 0};
   }
   Point2 to_square(const Vec3& x) const override {
     const double r2 = (x[0] * x[0] + x[1] * x[1]) / (radius_ * radius_);
-    const double phi = std::atan2(x[1], x[0]) / (2 * kPi);
+    const double phi = std::atan2(x[1], x[0]) / (2 * pi);
     return {std::min(r2, 1.0), phi < 0 ? phi + 1 : phi};
   }
-  double element(const Point2&) const override { return kPi * radius_ * radius_; }
+  double element(const Point2&) const override { return pi * radius_ * radius_; }
   Vec3 near(const Vec3& x, double distance, double angle) const override {
     return moved_in_plane(x, distance * radius_, angle);
   }

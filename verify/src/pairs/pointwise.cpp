@@ -161,10 +161,10 @@ class Pointwise {
   }
 
   bool positive_near(const Vec3& x) const {
-    constexpr double kRoundingDistance = 2e-6;
+    constexpr double kBesideIt = 2e-6;
     for (int k = 0; k < 8; ++k) {
       const double angle = k * std::numbers::pi / 4;
-      if (pair_.pdf(pair_.domain.chart().near(x, kRoundingDistance, angle)) > 0) return true;
+      if (pair_.pdf(pair_.domain.chart().near(x, kBesideIt, angle)) > 0) return true;
     }
     return false;
   }

@@ -17,7 +17,7 @@ namespace {
 
 using Sampler = std::function<std::optional<SampleRecord>(const Uniforms&)>;
 
-constexpr double kPassLevel = 1e-3;
+constexpr double kShareLevel = 1e-3;
 constexpr std::uint64_t kMostCounted = 1 << 24;
 
 /// What the share has to be known to at 99.9 %, and how many probes show it where none is rejected.
@@ -40,7 +40,7 @@ struct Precision {
 
   std::uint64_t probes() const {
     return static_cast<std::uint64_t>(
-        std::min<double>(kMostCounted, std::ceil(-std::log(kPassLevel) / lines)));
+        std::min<double>(kMostCounted, std::ceil(-std::log(kShareLevel) / lines)));
   }
 };
 
@@ -147,7 +147,7 @@ RejectedShare count(const Rejects& rejects, std::uint64_t at_most, const Precisi
     share.value = rejected / share.points;
     share.variance = share.value * (1 - share.value) / share.points;
     share.largest_term = 1 / share.points;
-    if (share.error(kPassLevel) <= precision.counted || n >= at_most) return share;
+    if (share.error(kShareLevel) <= precision.counted || n >= at_most) return share;
   }
 }
 
@@ -192,7 +192,7 @@ RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon,
   RejectedShare best = probed;
   if (numbers < 3) {
     best = RejectedLines(sample, numbers, epsilon, precision.lines, seed).measure();
-    if (numbers == 1 || best.error(kPassLevel) <= precision.lines) return best;
+    if (numbers == 1 || best.error(kShareLevel) <= precision.lines) return best;
   }
   // Borders that no lines follow, many thin strips: points do as well, and cost less.
   // A border of dimension d − 1 crosses a share of the cells in proportion to 1/side, which makes
@@ -200,10 +200,10 @@ RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon,
   int side = numbers == 2 ? 128 : 24;
   const int most = numbers == 2 ? 768 : 96;
   const double power = 2.0 / (numbers + 1);
-  while (!(best.error(kPassLevel) <= precision.counted)) {
+  while (!(best.error(kShareLevel) <= precision.counted)) {
     const RejectedShare grid = on_grid(sample, numbers, side, epsilon, random);
-    const double error = grid.error(kPassLevel);
-    if (error < best.error(kPassLevel)) best = grid;
+    const double error = grid.error(kShareLevel);
+    if (error < best.error(kShareLevel)) best = grid;
     if (side == most) break;
     const double enough = 1.1 * side * std::pow(error / precision.counted, power);
     side = static_cast<int>(std::min<double>(most, std::ceil(std::max(enough, 1.2 * side))));

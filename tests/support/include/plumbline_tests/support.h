@@ -43,6 +43,9 @@ void expect_verdict(verify::CheckResult result, const char* file = __builtin_FIL
 /// A file of the source tree, by its path from the root: "analytic/scenes/furnace_sphere.xml".
 std::filesystem::path source_file(std::string_view path_from_root);
 
+/// What a file holds, byte by byte; empty if it cannot be read.
+std::string text_of(const std::filesystem::path& file);
+
 /// An empty directory of the running test's own, removed with what is in it.
 class ScratchDirectory {
  public:
