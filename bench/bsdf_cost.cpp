@@ -1,6 +1,10 @@
 #include <benchmark/benchmark.h>
 
+#include <cstdint>
 #include <string>
+#include <tuple>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include <plumbline/renderer/assembly/bsdf.h>
@@ -16,34 +20,43 @@ using namespace renderer;
 
 const ConductorFresnel kGold{{0.143119f, 0.374957f, 1.44248f}, {3.98316f, 2.38572f, 1.60322f}};
 
-struct Case {
+template <class B>
+struct Timed {
   const char* name;
-  std::uint32_t index;
+  B bsdf;
 };
+template <class B>
+Timed(const char*, B) -> Timed<B>;
+
+/// In the order of the set: a nested BSDF names its children by their place here.
+const std::tuple kTimed{
+    Timed{"lambertian", Lambertian{{0.5f, 0.5f, 0.5f}}},
+    Timed{"modified_phong", ModifiedPhong{{1, 1, 1}, 50}},
+    Timed{"ggx_conductor", GgxConductor{{0.3f, 0.3f}, {}}},
+    Timed{"ggx_conductor_gold", GgxConductor{{0.3f, 0.3f}, kGold}},
+    Timed{"ggx_dielectric", GgxDielectric{{0.3f, 0.3f}, {1.5f}}},
+    Timed{"smooth_conductor", SmoothConductor{kGold}},
+    Timed{"smooth_dielectric", SmoothDielectric{{1.5f}}},
+    Timed{"clear_coat", ClearCoat(1.5f, 0.1f, {0.5f, 0.5f, 0.5f})},
+    Timed{"thin_film_on_rough_gold", ThinFilm{GgxConductor{{0.3f, 0.3f}, kGold}, {300, 1.5f}}},
+    Timed{"thin_film_on_rough_glass", ThinFilm{GgxDielectric{{0.3f, 0.3f}, {1.5f}}, {300, 1.3f}}},
+    Timed{"two_sided", TwoSided{2, 2}},
+    Timed{"mixture", Mixture{0, 2, 0.5f}}};
+
+template <class B, class... T>
+constexpr bool kIsOneOf = (... || std::is_same_v<B, T>);
+template <class... B, class... T>
+constexpr bool all_timed(const std::variant<B...>*, const std::tuple<Timed<T>...>*) {
+  return (... && kIsOneOf<B, T...>);
+}
+static_assert(all_timed(static_cast<const Bsdf*>(nullptr), &kTimed),
+              "a BSDF of the variant is not timed");
 
 const BsdfSet& bsdfs() {
-  static const BsdfSet set({Lambertian{{0.5f, 0.5f, 0.5f}}, ModifiedPhong{{1, 1, 1}, 50},
-                            GgxConductor{{0.3f, 0.3f}, {}}, GgxConductor{{0.3f, 0.3f}, kGold},
-                            GgxDielectric{{0.3f, 0.3f}, {1.5f}}, SmoothConductor{kGold},
-                            SmoothDielectric{{1.5f}}, ClearCoat(1.5f, 0.1f, {0.5f, 0.5f, 0.5f}),
-                            ThinFilm{GgxConductor{{0.3f, 0.3f}, kGold}, {300, 1.5f}},
-                            ThinFilm{GgxDielectric{{0.3f, 0.3f}, {1.5f}}, {300, 1.3f}},
-                            TwoSided{2, 2}, Mixture{0, 2, 0.5f}});
+  static const BsdfSet set(
+      std::apply([](const auto&... timed) { return std::vector<Bsdf>{timed.bsdf...}; }, kTimed));
   return set;
 }
-
-constexpr Case kCases[] = {{"lambertian", 0},
-                           {"modified_phong", 1},
-                           {"ggx_conductor", 2},
-                           {"ggx_conductor_gold", 3},
-                           {"ggx_dielectric", 4},
-                           {"smooth_conductor", 5},
-                           {"smooth_dielectric", 6},
-                           {"clear_coat", 7},
-                           {"thin_film_on_rough_gold", 8},
-                           {"thin_film_on_rough_glass", 9},
-                           {"two_sided", 10},
-                           {"mixture", 11}};
 
 /// Directions and numbers that no branch predictor learns by heart.
 struct Inputs {
@@ -101,7 +114,9 @@ void add(const std::string& name, const B& bsdf) {
 
 bool add_all() {
   add("plain_ggx", PlainGgx{0.3f, {1, 1, 1}});
-  for (const Case& c : kCases) add(c.name, BsdfRef(bsdfs(), c.index));
+  std::uint32_t index = 0;
+  std::apply([&index](const auto&... timed) { (add(timed.name, BsdfRef(bsdfs(), index++)), ...); },
+             kTimed);
   return true;
 }
 

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/image_io/exr.h>
 
 namespace plumbline::tools {
 

@@ -14,7 +14,6 @@
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
-#include <plumbline/renderer/scene_file/nearest_name.h>
 #include <plumbline/reports/render_record.h>
 
 #include "allocation_options.h"

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <plumbline/analytic/furnace.h>
 #include <plumbline/analytic/known_scene.h>
 #include <plumbline/analytic/shadow.h>
 

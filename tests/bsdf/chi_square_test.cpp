@@ -49,7 +49,7 @@ TYPED_TEST(ChiSquareInFloat, SamplesFollowTheDensityFromBothFaces) {
         const std::string name = example.name + (front ? "/front " : "/back ") +
                                  std::to_string(static_cast<int>(degrees)) + "/float";
         const verify::BsdfOptions options = options_for(name, example.eta);
-        verify::Random random(options.contract.seed, 20);
+        verify::Random random(check_seed(name + "/azimuth"));
         const double azimuth = 2 * std::numbers::pi * random.uniform();
         expect_verdict(
             check(name, as_rendered(example.bsdf), direction_at(degrees, azimuth, front), options));

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <plumbline_tests/directions.h>
+#include <plumbline_tests/support.h>
 
 #include <array>
 #include <cmath>
@@ -107,8 +108,8 @@ TYPED_TEST(Edge, SampledDirectionsAreOfUnitLengthWhereTheVisibleNormalCancels) {
 }
 
 TYPED_TEST(Edge, ThereIsADensityWhereTheModelHasOneAndNowhereElse) {
-  verify::Random random(1);
   for (const Example& example : examples_of<TypeParam>()) {
+    verify::Random random(check_seed(example.name + "/density"));
     EXPECT_EQ(example.bsdf.parts().density, example.gives.density()) << example.name;
     EXPECT_EQ(example.bsdf.parts().atoms, example.gives.atoms()) << example.name;
     for (const Vec3f& wo : hard_outgoing(random)) {
@@ -127,8 +128,8 @@ TYPED_TEST(Edge, ThereIsADensityWhereTheModelHasOneAndNowhereElse) {
 }
 
 TYPED_TEST(Edge, EvaluateIsEvalAndPdf) {
-  verify::Random random(3);
   for (const Example& example : examples_of<TypeParam>()) {
+    verify::Random random(check_seed(example.name + "/evaluate"));
     for (const Vec3f& wo : hard_outgoing(random)) {
       for (const Vec3f& wi : hard_incoming(example.bsdf, wo, 16, random)) {
         const BsdfValue<float> both = example.bsdf.evaluate(wo, wi);
@@ -142,7 +143,7 @@ TYPED_TEST(Edge, EvaluateIsEvalAndPdf) {
 TEST(DarkHalo, MetalWithoutLossStaysBrightToTheHorizon) {
   // Single scattering keeps at least half of the power at any angle for α ≤ 0.1.
   const GgxConductor metal{{0.1f, 0.1f}, {}};
-  verify::Random random(2);
+  verify::Random random(check_seed("dark halo"));
   for (const double degrees : {85.0, 89.0, 89.9, 89.99}) {
     const Vec3f wo = direction(std::cos(radians(degrees)), 0.3);
     double sum = 0;
@@ -160,7 +161,7 @@ TEST(TwoSided, BehindItIsTheFrontMirroredAtTheSurface) {
   const BsdfSet set({GgxConductor{{0.1f, 0.3f}, copper()}, TwoSided{0, 0}});
   const BsdfRef metal(set, 0), both(set, 1);
   const auto mirrored = [](const Vec3f& w) { return Vec3f{w.x, w.y, -w.z}; };
-  verify::Random random(4);
+  verify::Random random(check_seed("two-sided, mirrored"));
   int sampled = 0;
   for (int i = 0; i < 1000; ++i) {
     const auto anywhere = [&random] {

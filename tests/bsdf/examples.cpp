@@ -17,25 +17,29 @@ constexpr Faces kDensity{Gives::density, Gives::density};
 constexpr Faces kAtomsInFront{Gives::atoms, Gives::nothing};
 constexpr Faces kAtoms{Gives::atoms, Gives::atoms};
 
+/// Index inside over the one outside of each alternative of the variant, 1 where light does not
+/// pass; one that has none here does not compile.
+struct EtaOf {
+  const BsdfSet& set;
+
+  double of(std::uint32_t index) const { return std::visit(*this, set.alternative(index)); }
+
+  double operator()(const Lambertian&) const { return 1; }
+  double operator()(const ModifiedPhong&) const { return 1; }
+  double operator()(const GgxConductor&) const { return 1; }
+  double operator()(const SmoothConductor&) const { return 1; }
+  double operator()(const ClearCoat&) const { return 1; }
+  double operator()(const TwoSided&) const { return 1; }
+  double operator()(const GgxDielectric& b) const { return double{b.interface.eta}; }
+  double operator()(const SmoothDielectric& b) const { return double{b.interface.eta}; }
+  double operator()(const ThinFilm& b) const { return std::visit(*this, b.base()); }
+  /// Both children of a mixture have the same medium behind them.
+  double operator()(const Mixture& b) const { return of(b.first); }
+};
+
 }  // namespace
 
-double eta_of(const BsdfSet& set, std::uint32_t index) {
-  const auto of = [&set](const auto& self, const auto& bsdf) -> double {
-    if constexpr (requires { bsdf.interface.eta; }) {
-      return double{bsdf.interface.eta};
-    } else if constexpr (requires {
-                           bsdf.base();
-                           bsdf.film();
-                         }) {
-      return std::visit([&](const auto& base) { return self(self, base); }, bsdf.base());
-    } else if constexpr (requires { bsdf.children(); }) {
-      // Both children of a mixture have the same medium behind them.
-      return eta_of(set, bsdf.children()[0]);
-    }
-    return 1;
-  };
-  return std::visit([&](const auto& bsdf) { return of(of, bsdf); }, set.alternative(index));
-}
+double eta_of(const BsdfSet& set, std::uint32_t index) { return EtaOf{set}.of(index); }
 
 Sets ExamplesOf<Lambertian>::sets() {
   return {{"grey", {Lambertian{{0.5f, 0.2f, 0.8f}}}, kDensityInFront}};

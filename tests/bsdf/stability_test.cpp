@@ -33,6 +33,12 @@ constexpr double kTolerance = 1e-3;
 constexpr double kShareOfPeak = 1e-6;
 /// An error within this multiple of what one ulp in each input changes is the input's.
 constexpr double kRoundings = 8;
+/// Of so many points of a BSDF one may be excused in this way. Its condition number is at least
+/// kTolerance·2²⁴/kRoundings = 2,097, so that it lies within about a 2,097th of a zero of the
+/// formula. Points at random hardly ever do; but from one direction next to the normal the ends of
+/// the random numbers may lead to the horizon, and a third of its 53 points are such ends: 18 of
+/// the 40,000 of a BSDF (1 to 13 were seen with nine seeds). Twice that is allowed.
+constexpr std::size_t kPointsForOneExcuse = 1000;
 
 /// The point at which a function is asked: a direction, and another one or two random numbers.
 using Inputs = std::vector<float>;
@@ -255,6 +261,7 @@ void publish(const std::string& name, const Subject& subject, const Tally& tally
 constexpr std::size_t kPointsPerBsdf = 10'000;
 
 void check_bsdf(const std::vector<Example>& examples) {
+  std::size_t points = 0, excused = 0;
   for (const Example& example : examples) {
     for (const Subject& subject : kSubjects) {
       verify::Random random(check_seed(example.name + subject.name));
@@ -266,8 +273,11 @@ void check_bsdf(const std::vector<Example>& examples) {
       }
       expect_verdict(result_of(example.name, subject, tally));
       publish(example.name, subject, tally);
+      points += tally.points;
+      excused += tally.ill_conditioned;
     }
   }
+  EXPECT_LE(kPointsForOneExcuse * excused, points) << "as ill-conditioned";
 }
 
 template <class B>

@@ -28,8 +28,8 @@ struct Case {
   /// "rough glass/alpha 0.2/float"; of a twin "rough glass/alpha 0.2/pdf without 1/(4 wo·h)"
   std::string name;
 
-  /// Empty: correct. Else what was done, in words, with the id of the shared list of real bugs
-  /// where it is one of them: "B3".
+  /// Empty: correct. Else what was done, in words; where a mutant (tests/mutants) or a known bug
+  /// (tests/verify/known_bugs_test.cpp) is like it, with its id: "B3".
   std::string fault;
 
   /// Of a fault: the kinds that a diagnosis is right to name. The first is the one that a person
@@ -45,7 +45,9 @@ verify::ContractOptions with_effort(verify::ContractOptions options, Effort effo
 std::vector<Case> bsdf_cases();
 std::vector<Case> pair_cases();  ///< lights, maps, warps, discrete, distances, phase functions
 
-/// Faulty twins that whoever writes the diagnosis has not seen; empty where the build has none.
+/// Faulty twins of a later set, `second` and so on: unseen by whoever wrote the diagnosis until
+/// they were first scored. In a build with PLUMBLINE_SEALED_CORPUS alone, which `./run score`
+/// makes.
 std::vector<Case> sealed_bsdf_cases();
 std::vector<Case> sealed_pair_cases();
 

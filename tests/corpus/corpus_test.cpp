@@ -29,7 +29,8 @@ std::string test_name(const testing::TestParamInfo<Case>& info) {
 class CorrectCode : public testing::TestWithParam<Case> {};
 
 TEST_P(CorrectCode, Passes) {
-  PLUMBLINE_EXPECT_PASS(GetParam().run(check_seed(GetParam().name), Effort::gate));
+  const Results results = GetParam().run(check_seed(GetParam().name), Effort::gate);
+  PLUMBLINE_EXPECT_PASS(repeatable(results));
 }
 
 class FaultyTwin : public testing::TestWithParam<Case> {};

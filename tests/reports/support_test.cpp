@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -120,6 +122,28 @@ TEST(ReplayCommand, NamesThisTestAsCtestKnowsIt) {
 TEST(ReplayCommand, RepeatsTheNightAtNight) {
   const ScopedVariable night("PLUMBLINE_NIGHTLY", "1");
   EXPECT_EQ(replay_command().rfind("PLUMBLINE_NIGHTLY=1 PLUMBLINE_SEED=", 0), 0u);
+}
+
+TEST(ReplayCommand, StandsUnderAFailureThatDoesNotSayIt) {
+  // The test runs itself, and fails then.
+  if (::getenv("PLUMBLINE_FAIL_HERE") != nullptr) FAIL() << "as it was asked to";
+  const ScratchDirectory scratch;
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  const std::string command =
+      "PLUMBLINE_FAIL_HERE=1 PLUMBLINE_SEED=5 '" + program +
+      "' --gtest_filter=" + "ReplayCommand.StandsUnderAFailureThatDoesNotSayIt >'" +
+      (scratch / "output").string() + "'";
+  EXPECT_NE(std::system(command.c_str()), 0);
+  const ScopedVariable seed("PLUMBLINE_SEED", "5");
+  const std::string output = scratch.read("output"), line = "\nreplay: " + replay_command() + "\n";
+  EXPECT_NE(output.find(line), std::string::npos) << output;
+}
+
+TEST(Repeatable, AReportGetsTheCommandUnlessItHasOne) {
+  EXPECT_EQ(repeatable(verify::Report(sample_check())).replay, replay_command());
+  verify::Report report;
+  report.replay = "make test";
+  EXPECT_EQ(repeatable(report).replay, "make test");
 }
 
 class ReplayOfNames : public testing::TestWithParam<int> {};

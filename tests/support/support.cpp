@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -72,6 +73,25 @@ bool judges_what_it_is_given(verify::CheckKind kind) {
          kind == verify::CheckKind::image;
 }
 
+/// Prints the command that repeats a failed test where no message of the failure says it.
+class ReplayPrinter final : public testing::EmptyTestEventListener {
+  void OnTestEnd(const testing::TestInfo& test) override {
+    if (!test.result()->Failed()) return;
+    const std::string command = replay_command();
+    for (int i = 0; i < test.result()->total_part_count(); ++i) {
+      const char* message = test.result()->GetTestPartResult(i).message();
+      if (std::string_view(message).find(command) != std::string_view::npos) return;
+    }
+    std::printf("replay: %s\n", command.c_str());
+  }
+};
+
+/// GoogleTest owns its listeners.
+[[maybe_unused]] const bool kPrinterIsThere = [] {
+  testing::UnitTest::GetInstance()->listeners().Append(new ReplayPrinter);
+  return true;
+}();
+
 void append_to_results(const verify::CheckResult& result) {
   const char* directory = std::getenv("PLUMBLINE_RESULTS");
   if (directory == nullptr || *directory == '\0') return;
@@ -117,6 +137,11 @@ std::string replay_command() {
   return std::string(nightly() ? "PLUMBLINE_NIGHTLY=1 " : "") +
          "PLUMBLINE_SEED=" + std::to_string(run_seed()) + " " PLUMBLINE_CTEST " -R '^" +
          quoted_for_regex(ctest_name(*test)) + "$'";
+}
+
+verify::Report repeatable(verify::Report report) {
+  if (report.replay.empty()) report.replay = replay_command();
+  return report;
 }
 
 void expect_verdict(verify::CheckResult result, const char* file, int line) {

@@ -7,7 +7,6 @@
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
 #include "diagnosis/shifts.h"
-#include "streams.h"
 #include "text.h"
 
 namespace plumbline::verify {

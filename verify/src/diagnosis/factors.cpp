@@ -183,9 +183,7 @@ void add_of_points(std::vector<Factor>& list, const Domain& domain) {
 void add_suspects(std::vector<Factor>& list, const ViewEvidence& view) {
   // The user's own, by name: the same list in every view.
   for (std::size_t i = 0; i < view.pair->suspects.size(); ++i) {
-    const Suspect& s = view.pair->suspects[i];
-    if (s.as_is || !s.only_of.empty()) continue;
-    list.push_back({s.name, CauseKind::constant, [i](const Place& p) {
+    list.push_back({view.pair->suspects[i].name, CauseKind::constant, [i](const Place& p) {
                       const auto& all = p.view->pair->suspects;
                       return i < all.size() ? all[i].value(p.x) : 0.0;
                     }});

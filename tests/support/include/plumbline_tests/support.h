@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include <plumbline/verify/detail/report.h>
 #include <plumbline/verify/detail/result.h>
 #include <plumbline/verify/pair.h>
 
@@ -28,8 +29,12 @@ bool nightly();
 /// up to 1 within 4e-4.
 verify::ContractOptions contract_options(std::string_view subject);
 
-/// The one command that repeats the running test with this run's seed; empty outside a test.
+/// The one command that repeats the running test with this run's seed; empty outside a test. It is
+/// printed under every test that fails, unless a message of the failure says it already.
 std::string replay_command();
+
+/// The report with that command, for PLUMBLINE_EXPECT_PASS: by itself it knows no seed of ours.
+verify::Report repeatable(verify::Report report);
 
 /// Holds a result against its expectation: adds a GoogleTest failure that explains itself if it
 /// differs, and appends the result to $PLUMBLINE_RESULTS/checks.jsonl, if that variable is set, for

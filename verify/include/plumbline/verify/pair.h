@@ -69,9 +69,6 @@ struct Atom {
 struct Suspect {
   std::string name;
   std::function<double(const Vec3&)> value;
-  std::string remark_if_inverse = {};  ///< in place of "factor … too many in pdf?"
-  std::string only_of = {};            ///< "pdf" or "f·|cosθ|": of no use elsewhere
-  bool as_is = false;  ///< the ratio itself, not a factor; the remark then says what it means
 };
 
 /// `sample` with its `pdf` over a domain: what the contract checks are about. BSDFs, lights, light

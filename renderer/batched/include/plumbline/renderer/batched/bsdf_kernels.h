@@ -23,7 +23,8 @@ class BsdfKernels {
   /// Fills f, cosine and pdf_bsdf for the directions of the light samples.
   virtual void evaluate(std::uint32_t bsdf, Shading& s, Run run) const = 0;
 
-  /// Fills wi, weight, pdf_w and refraction from u and v; refraction 0 where there is no sample.
+  /// Fills wi, weight, pdf_w, atom_mass and refraction from u and v; all 0 where there is no
+  /// sample.
   virtual void sample(std::uint32_t bsdf, Shading& s, Run run) const = 0;
 };
 

@@ -8,8 +8,10 @@
 #include <plumbline/renderer/core/render/path.h>
 #include <plumbline/renderer/core/scene/scene.h>
 
-/// One place for each decision at a surface point, for whoever traces paths: a student reads here
-/// what is drawn and how it is weighed, and in path.cpp in which order.
+/// The decisions at a surface point, for whoever traces paths: a student reads here what is drawn
+/// and how it is weighed, and in path.cpp in which order. The batched backend takes emission,
+/// roulette and ends of paths from here; it draws and weighs light samples in loops of its own,
+/// which the tests hold to the bits of `draw_light` and `light_weight`.
 namespace plumbline::renderer {
 
 /// A surface point that light is gathered at.
@@ -109,15 +111,15 @@ struct Techniques {
 ///
 /// @param pdf, pdf_other  pdf_w [1/sr] of this technique and the other at the sample
 /// @param atom            no other technique can find it, and the densities do not count
-inline float sample_weight(const PathOptions& options, float n, float pdf, float n_other,
-                           float pdf_other, bool atom) {
+inline float mis_weight_per_sample(const PathOptions& options, float n, float pdf, float n_other,
+                                   float pdf_other, bool atom) {
   if (options.strategy == Strategy::average) return 0.5f;
   return (atom ? 1 : mis_weight(options.heuristic, n * pdf, n_other * pdf_other)) / n;
 }
 
 inline float light_weight(const PathOptions& options, const Techniques& t, const LightDraw& draw) {
-  return sample_weight(options, t.n_light, draw.pdf, t.n_bsdf, t.n_bsdf > 0 ? draw.other_pdf : 0,
-                       draw.atom);
+  return mis_weight_per_sample(options, t.n_light, draw.pdf, t.n_bsdf,
+                               t.n_bsdf > 0 ? draw.other_pdf : 0, draw.atom);
 }
 
 /// The vertex behind the end of a BSDF ray.
@@ -133,11 +135,11 @@ inline float emission_weight(const PathOptions& options, const LightSet& lights,
                              const Arrival& arrival, std::uint32_t light, const Vec3f& direction) {
   const Techniques& t = arrival.techniques;
   if (arrival.atom) {
-    return sample_weight(options, static_cast<float>(t.bsdf_samples()), 0, 0, 0, true);
+    return mis_weight_per_sample(options, static_cast<float>(t.bsdf_samples()), 0, 0, 0, true);
   }
   if (t.draw_bsdf == 0) return 0;
   const float pdf_light = t.n_light > 0 ? lights.pdf_at_hit(light, arrival.ref, direction) : 0.0f;
-  return sample_weight(options, t.n_bsdf, arrival.pdf_w, t.n_light, pdf_light, false);
+  return mis_weight_per_sample(options, t.n_bsdf, arrival.pdf_w, t.n_light, pdf_light, false);
 }
 
 /// What emission at the end of a ray adds, weighted against the light sample that could have found

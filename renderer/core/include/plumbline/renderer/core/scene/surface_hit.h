@@ -18,8 +18,8 @@ struct SurfaceHit {
   Vec3f position;       ///< on the surface to the last bit that float has
   Vec3f normal;         ///< unit, of the front side
   float offset;         ///< distance from the surface at which rays may start [m]
-  std::uint32_t bsdf;   ///< index for Scene::bsdf
-  std::uint32_t light;  ///< index into Scene::lights, or kNoLight where the side hit is dark
+  std::uint32_t bsdf;   ///< index into Scene::bsdfs()
+  std::uint32_t light;  ///< index into Scene::lights(), or kNoLight where the side hit is dark
 
   /// Where rays that leave towards the side of `w` start.
   Vec3f origin_towards(const Vec3f& w) const {
