@@ -33,6 +33,44 @@ CauseKind of_value(CauseKind kind) {
   }
 }
 
+/// Factors that are 0 nowhere: none of them keeps samples away.
+bool is_positive_factor(CauseKind kind) {
+  switch (kind) {
+    case CauseKind::constant:
+    case CauseKind::constant_per_hemisphere:
+    case CauseKind::fresnel:
+    case CauseKind::half_vector_jacobian:
+    case CauseKind::lobe_probability:
+    case CauseKind::masking:
+    case CauseKind::roughness:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// All samples lie in a part of what pdf() covers, and are as much denser there.
+///
+/// @param never  share of pdf() where no sample falls
+std::optional<Finding> explain_empty_places(const Observations& density, double never) {
+  constexpr double kLeast = 0.2, kClose = 0.05;
+  if (never < kLeast) return std::nullopt;
+  Hypothesis denser;
+  denser.needs_exact = true;
+  denser.starts = {{0.0}};
+  denser.prediction = [](const Place& p, std::span<const double> n) {
+    return p.base * std::exp(n[0]);
+  };
+  const auto found = explain(density, {denser});
+  if (found.empty()) return std::nullopt;
+  const double times = std::exp(found.front().numbers.front().front());
+  if (std::abs(times * (1 - never) - 1) > kClose) return std::nullopt;
+  return Finding{CauseKind::support, "no sample falls where " +
+                                         number(std::round(1e3 * never) / 10) +
+                                         " % of pdf() is, and the rest is " + number(times) +
+                                         " times as dense as it says"};
+}
+
 class Diagnosis {
  public:
   explicit Diagnosis(const ReportEvidence& evidence) : evidence_(evidence) {}
@@ -149,11 +187,10 @@ class Diagnosis {
     }
     // Where nothing falls, a factor explains nothing.
     constexpr double kNever = 0.02;
-    if (!found.empty() && found.front().hypothesis->kind == CauseKind::constant_per_hemisphere &&
-        never_sampled(evidence_) > kNever) {
-      std::erase_if(found, [](const Explanation& e) {
-        return e.hypothesis->kind == CauseKind::constant_per_hemisphere;
-      });
+    const double never = never_sampled(evidence_);
+    if (never > kNever) {
+      std::erase_if(found,
+                    [](const Explanation& e) { return is_positive_factor(e.hypothesis->kind); });
     }
     // Of a mixture whose parts are known, no number has to be guessed.
     if (found.empty() || found.front().cost >= kPerNumber) {
@@ -163,6 +200,7 @@ class Diagnosis {
     if (const auto f = explain_by_branches(evidence_)) return named(*f);
     if (const auto f = explain_discrete(evidence_)) return named(*f);
     if (const auto f = explain_shape(evidence_, density)) return named(*f);
+    if (const auto f = explain_empty_places(density, never)) return named(*f);
     return {};
   }
 

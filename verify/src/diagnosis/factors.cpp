@@ -68,6 +68,12 @@ void add_of_half_vectors(std::vector<Factor>& list) {
   // Of a density of normals, D cosθh: a cosine, though it is lost together with the Jacobian.
   list.push_back(
       {"cosθh", CauseKind::cosine, [](const Place& p) { return std::abs(half_of(p)[2]); }, 1.1});
+  // Of a density of slopes: D cos⁴θh, or cos³θh with the cosine of a density of normals.
+  for (const auto& [name, power] : {std::pair{"cos³θh", 3}, {"cos⁴θh", 4}}) {
+    list.push_back({name, CauseKind::cosine,
+                    [n = power](const Place& p) { return std::pow(std::abs(half_of(p)[2]), n); },
+                    1.4});
+  }
   list.push_back({"sinθh", CauseKind::sine,
                   [](const Place& p) {
                     const Vec3 m = half_of(p);

@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <string_view>
 
 #include "diagnosis/geometry.h"
@@ -10,6 +13,17 @@ namespace plumbline::verify {
 namespace {
 
 using Starts = std::vector<std::vector<double>>;
+
+using FresnelLaw = std::function<double(const Place&, double cosine, std::span<const double>)>;
+
+/// Whether F is 1 from wherever a view looks, as beyond the critical angle: no Fresnel term shows.
+bool all_is_reflected(const ReportEvidence& evidence, const FresnelLaw& f,
+                      std::span<const double> number) {
+  return std::all_of(evidence.views.begin(), evidence.views.end(), [&](const ViewEvidence& v) {
+    constexpr double kAll = 0.999;
+    return has_wo(v) && f({.view = &v, .wo = *v.wo, .x = *v.wo}, (*v.wo)[2], number) > kAll;
+  });
+}
 
 void add_one_fresnel(std::vector<Hypothesis>& list, const ReportEvidence& evidence,
                      const Blame& blame) {
@@ -26,18 +40,22 @@ void add_one_fresnel(std::vector<Hypothesis>& list, const ReportEvidence& eviden
     double rank;
     Starts starts;
     const char* name;
-    std::function<double(const Place&, double cosine, std::span<const double>)> f;
+    FresnelLaw f;
+    double least = 0, most = 0;  ///< of the number; beyond them it is 0 or 1, a constant
   };
   std::vector<Law> laws = {
       {0,
        {{-3.2}, {-1.0}, {0.5}},
        "Schlick",
-       [](const Place&, double c, auto n) {
-         return fresnel_schlick(c, 1 / (1 + std::exp(-n[0])));
-       }},
-      {0.1, {{0.4}, {-0.4}, {0.1}}, "dielectric", [](const Place&, double c, auto n) {
-         return fresnel_dielectric(c, std::exp(n[0]));
-       }}};
+       [](const Place&, double c, auto n) { return fresnel_schlick(c, 1 / (1 + std::exp(-n[0]))); },
+       -7,
+       7},
+      {0.1,
+       {{0.4}, {-0.4}, {0.1}},
+       "dielectric",
+       [](const Place&, double c, auto n) { return fresnel_dielectric(c, std::exp(n[0])); },
+       -1.4,
+       1.4}};
   if (evidence.views.front().eta != 1) {
     laws.push_back({0, {}, "of the index given", [](const Place& p, double c, auto) {
                       const double eta = p.view->eta;
@@ -79,6 +97,13 @@ void add_one_fresnel(std::vector<Hypothesis>& list, const ReportEvidence& eviden
         // Of cosθo alone it is a constant for each view, which counts cannot tell from others.
         h.needs_exact = std::string_view(c.name) == "cosθo" && !law.starts.empty();
         h.starts = law.starts;
+        if (!law.starts.empty()) {
+          h.charge = [&evidence, law](const auto& n) -> std::optional<double> {
+            const double x = n.front().front();
+            if (!(law.least < x && x < law.most)) return std::nullopt;
+            return all_is_reflected(evidence, law.f, n.front()) ? std::nullopt : std::optional(0.0);
+          };
+        }
         h.prediction = [cosine = c.value, f = law.f, ratio = form.ratio](
                            const Place& p, std::span<const double> n) {
           return p.base * ratio(f(p, cosine(p), n), transmits(p.wo, p.x));

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/geometry.h"
 #include "diagnosis/hypothesis.h"
@@ -15,6 +16,19 @@ using Starts = std::vector<std::vector<double>>;
 Starts roughness_starts() { return {{-5.5}, {-4.0}, {-3.0}, {-2.0}, {-1.2}, {-0.6}, {0.0}}; }
 
 std::string alpha(double log_alpha) { return "α = " + number(std::exp(log_alpha)); }
+
+/// Roughnesses that renderers have. A fit that ends elsewhere has found the shape of another fault.
+bool is_roughness(double log_alpha) {
+  constexpr double kLeast = 1e-5, kMost = 1.001;
+  return std::exp(log_alpha) >= kLeast && std::exp(log_alpha) <= kMost;
+}
+
+std::optional<double> if_roughnesses(const Numbers& n) {
+  for (const double log_alpha : n.front()) {
+    if (!is_roughness(log_alpha)) return std::nullopt;
+  }
+  return 0;
+}
 
 std::string of_missing(double power, const Blame& blame) {
   return (power > 0 ? " missing from " : " too many in ") + blame.function;
@@ -47,6 +61,7 @@ void add_masking(std::vector<Hypothesis>& list, const Blame& blame) {
       h.kind = CauseKind::masking;
       h.complexity = f.rank;
       h.starts = roughness_starts();
+      h.charge = if_roughnesses;
       h.prediction = [g = f.g, power](const Place& p, std::span<const double> n) {
         return p.base * std::pow(g(p, std::exp(n[0])), power);
       };
@@ -74,6 +89,7 @@ void add_masking(std::vector<Hypothesis>& list, const Blame& blame) {
   Hypothesis other;
   other.kind = CauseKind::masking;
   other.starts = {{-1.0, -2.0}, {-2.0, -1.0}, {-0.5, -3.0}, {-3.0, -0.5}};
+  other.charge = if_roughnesses;
   other.prediction = [](const Place& p, std::span<const double> n) {
     return p.base * smith_g1(p.wo, std::exp(n[0])) / smith_g1(p.wo, std::exp(n[1]));
   };
@@ -147,7 +163,8 @@ void add_roughness(std::vector<Hypothesis>& list, const Blame& blame) {
           h.charge = [two](const auto& numbers) -> std::optional<double> {
             constexpr double kApart = 0.01;
             const auto [right, wrong] = two(numbers.front());
-            return std::abs(right - wrong) > kApart ? std::optional(0.0) : std::nullopt;
+            const bool sane = is_roughness(right) && is_roughness(wrong);
+            return sane && std::abs(right - wrong) > kApart ? std::optional(0.0) : std::nullopt;
           };
           h.words = [two, name = std::string(f.name), blame](std::span<const double> n) {
             const auto [right, wrong] = two(n);

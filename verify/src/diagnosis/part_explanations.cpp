@@ -307,6 +307,12 @@ std::optional<Finding> PartExplanations::by_parts(bool only_steady) {
   }
   if (complete) {
     if (const auto f = lone_constant(*shown)) return f;
+    // A weight of 0: pdf() may have another part's form there, or no such part; it does not show
+    // which.
+    constexpr double kNone = 1e-3;
+    if (std::any_of(shown->a.begin(), shown->a.end(), [](double a) { return a < kNone; })) {
+      return std::nullopt;
+    }
     return Finding{
         shown->apart && !has_wo(view) ? CauseKind::choice_probability : CauseKind::lobe_probability,
         chosen + ", but pdf() weighs their densities by " + listed(shown->a)};
