@@ -245,6 +245,18 @@ bool steady(const std::vector<Solved>& views, double tolerance) {
   return true;
 }
 
+/// A part has no weight and another has more than its share: pdf() may have the other's form for
+/// both, and says nothing of probabilities.
+bool takes_another_form(const Solved& solved) {
+  constexpr double kNone = 1e-3, kKnown = 0.02;
+  bool none = false, more = false;
+  for (std::size_t i = 0; i < solved.a.size(); ++i) {
+    none = none || solved.a[i] < kNone;
+    more = more || solved.a[i] > solved.parts.share(i) + kKnown;
+  }
+  return none && more;
+}
+
 /// One part's density with π too often or not at all, the others being right: no probability.
 std::optional<Finding> lone_constant(const Solved& solved) {
   constexpr double kKnown = 2e-3;
@@ -307,12 +319,7 @@ std::optional<Finding> PartExplanations::by_parts(bool only_steady) {
   }
   if (complete) {
     if (const auto f = lone_constant(*shown)) return f;
-    // A weight of 0: pdf() may have another part's form there, or no such part; it does not show
-    // which.
-    constexpr double kNone = 1e-3;
-    if (std::any_of(shown->a.begin(), shown->a.end(), [](double a) { return a < kNone; })) {
-      return std::nullopt;
-    }
+    if (takes_another_form(*shown)) return std::nullopt;
     return Finding{
         shown->apart && !has_wo(view) ? CauseKind::choice_probability : CauseKind::lobe_probability,
         chosen + ", but pdf() weighs their densities by " + listed(shown->a)};
