@@ -49,28 +49,6 @@ bool is_positive_factor(CauseKind kind) {
   }
 }
 
-/// All samples lie in a part of what pdf() covers, and are as much denser there.
-///
-/// @param never  share of pdf() where no sample falls
-std::optional<Finding> explain_empty_places(const Observations& density, double never) {
-  constexpr double kLeast = 0.2, kClose = 0.05;
-  if (never < kLeast) return std::nullopt;
-  Hypothesis denser;
-  denser.needs_exact = true;
-  denser.starts = {{0.0}};
-  denser.prediction = [](const Place& p, std::span<const double> n) {
-    return p.base * std::exp(n[0]);
-  };
-  const auto found = explain(density, {denser});
-  if (found.empty()) return std::nullopt;
-  const double times = std::exp(found.front().numbers.front().front());
-  if (std::abs(times * (1 - never) - 1) > kClose) return std::nullopt;
-  return Finding{CauseKind::support, "no sample falls where " +
-                                         number(std::round(1e3 * never) / 10) +
-                                         " % of pdf() is, and the rest is " + number(times) +
-                                         " times as dense as it says"};
-}
-
 class Diagnosis {
  public:
   explicit Diagnosis(const ReportEvidence& evidence) : evidence_(evidence) {}
@@ -99,6 +77,12 @@ class Diagnosis {
     return std::any_of(evidence_.views.begin(), evidence_.views.end(),
                        [](const ViewEvidence& v) { return v.failed; }) ||
            reciprocity_fails(evidence_) || energy_fails(evidence_);
+  }
+
+  /// Share of pdf() where no sample falls; it takes samples, once and only where somebody asks.
+  double never() {
+    if (!never_) never_ = never_sampled(evidence_);
+    return *never_;
   }
 
   static Cause named(const Finding& f) { return {f.kind, f.words, {}, CauseKind::none}; }
@@ -187,10 +171,11 @@ class Diagnosis {
     }
     // Where nothing falls, a factor explains nothing.
     constexpr double kNever = 0.02;
-    const double never = never_sampled(evidence_);
-    if (never > kNever) {
-      std::erase_if(found,
-                    [](const Explanation& e) { return is_positive_factor(e.hypothesis->kind); });
+    const auto is_factor = [](const Explanation& e) {
+      return is_positive_factor(e.hypothesis->kind);
+    };
+    if (std::any_of(found.begin(), found.end(), is_factor) && never() > kNever) {
+      std::erase_if(found, is_factor);
     }
     // Of a mixture whose parts are known, no number has to be guessed.
     if (found.empty() || found.front().cost >= kPerNumber) {
@@ -199,8 +184,8 @@ class Diagnosis {
     if (!found.empty()) return from(found, which_function(found.front()));
     if (const auto f = explain_by_branches(evidence_)) return named(*f);
     if (const auto f = explain_discrete(evidence_)) return named(*f);
-    if (const auto f = explain_shape(evidence_, density)) return named(*f);
-    if (const auto f = explain_empty_places(density, never)) return named(*f);
+    if (const auto f = explain_shape(evidence_, density, never())) return named(*f);
+    if (const auto f = explain_empty_places(density, never())) return named(*f);
     return {};
   }
 
@@ -380,6 +365,7 @@ class Diagnosis {
   }
 
   const ReportEvidence& evidence_;
+  std::optional<double> never_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/hypothesis.h"
 #include "diagnosis/parts.h"
 #include "text.h"
 
@@ -46,7 +47,16 @@ std::optional<Finding> explain_atoms(const ReportEvidence& evidence, const Obser
   return std::nullopt;
 }
 
-std::optional<Finding> explain_shape(const ReportEvidence& evidence, const Observations& density) {
+namespace {
+
+std::string where_none_falls(double never) {
+  return "no sample falls where " + number(std::round(1e3 * never) / 10) + " % of pdf() is, and ";
+}
+
+}  // namespace
+
+std::optional<Finding> explain_shape(const ReportEvidence& evidence, const Observations& density,
+                                     double never) {
   double excess = 0;
   for (const ViewObservations& v : density.views()) {
     for (const CountedBin& b : v.bins) {
@@ -74,14 +84,30 @@ std::optional<Finding> explain_shape(const ReportEvidence& evidence, const Obser
   const Parts parts = parts_of(pair);
   // At least one part in as many of each is sampled.
   const double most = parts.borders.empty() ? 1 : 1 - 0.5 / static_cast<double>(parts.count());
-  const double never = never_sampled(evidence);
   if (never > 0.02 && never <= most && choice_is_used_again(pair, parts)) {
     return Finding{CauseKind::numbers_reused,
-                   "no sample falls where " + number(std::round(1e3 * never) / 10) +
-                       " % of pdf() is, and more than expected elsewhere: a number that has chosen "
-                       "a part is used again without being stretched to [0, 1)"};
+                   where_none_falls(never) +
+                       "more than expected elsewhere: a number that has chosen a part is used "
+                       "again without being stretched to [0, 1)"};
   }
   return std::nullopt;
+}
+
+std::optional<Finding> explain_empty_places(const Observations& density, double never) {
+  constexpr double kLeast = 0.2, kClose = 0.05;
+  if (never < kLeast) return std::nullopt;
+  Hypothesis denser;
+  denser.needs_exact = true;
+  denser.starts = {{0.0}};
+  denser.prediction = [](const Place& p, std::span<const double> n) {
+    return p.base * std::exp(n[0]);
+  };
+  const auto found = explain(density, {denser});
+  if (found.empty()) return std::nullopt;
+  const double times = std::exp(found.front().numbers.front().front());
+  if (std::abs(times * (1 - never) - 1) > kClose) return std::nullopt;
+  return Finding{CauseKind::support, where_none_falls(never) + "the rest is " + number(times) +
+                                         " times as dense as it says"};
 }
 
 }  // namespace plumbline::verify
