@@ -6,8 +6,6 @@
 namespace plumbline::bench {
 namespace {
 
-constexpr std::size_t kHalf = kIterationSamples / 2;
-
 // A BSDF sample that hits the limb of a light, a rounding error outside the cone that light samples
 // fill, has the density of one technique only. One in 2e7 does, and in the second moment of its
 // pixel it is hundreds of standard deviations, where all others are within ten. Events beyond this
@@ -53,7 +51,7 @@ std::vector<PixelUnit> pixel_units(const std::vector<PixelIntegrals>& pilot, int
         !(own > 1e-5 * pixel.mean * pixel.mean)) {
       continue;
     }
-    units[i] = {std::sqrt(own / samples), pixel.mean / static_cast<double>(pixel.moment[kHalf])};
+    units[i] = {std::sqrt(own / samples), pixel.mean / static_cast<double>(pixel.moment[kEqual])};
   }
   return units;
 }
@@ -75,7 +73,7 @@ void RenderErrors::add(const renderer::RenderResult& result, const std::vector<P
     for (std::size_t j = 0; j < iterations; ++j) {
       const std::size_t k = result.bsdf_counts[i * iterations + j];
       moment += static_cast<double>(exact[i].moment[k]) / static_cast<double>(iterations);
-      fixed_counts_ = fixed_counts_ && k == kHalf;
+      fixed_counts_ = fixed_counts_ && k == kEqual;
       variance += exact[i].count_variance(k) / (n * static_cast<double>(iterations));
     }
     const std::size_t at = errors.size();

@@ -123,7 +123,7 @@ PixelIntegrals& PixelIntegrals::operator/=(double divisor) {
 }
 
 std::size_t best_share(const PixelIntegrals& pixel) {
-  if (!(pixel.moment[kIterationSamples / 2] > 0)) return kIterationSamples / 2;
+  if (!(pixel.moment[kEqual] > 0)) return kEqual;
   constexpr std::size_t kFirst = kIterationSamples / 10, kLast = kIterationSamples - kFirst;
   const boost::math::interpolators::cardinal_cubic_b_spline<double> spline(
       pixel.moment.begin() + kFirst, pixel.moment.begin() + kLast + 1, share_of(kFirst),

@@ -11,6 +11,7 @@ namespace plumbline::bench {
 
 /// Samples of one iteration of the experiment: the shares that a policy can visit are k/50.
 inline constexpr std::size_t kIterationSamples = 50;
+inline constexpr std::size_t kEqual = kIterationSamples / 2;  ///< as many of each technique
 
 /// The reflected direct light of one pixel, as functions of the share α = k/50 of BSDF samples,
 /// with p = αp₁ + (1 − α)p₂. Luminance; the position inside the pixel is part of the domain.
@@ -54,8 +55,6 @@ double largest_around(const std::vector<PixelIntegrals>& pixels, int width, std:
                       double (*quantity)(const PixelIntegrals&));
 
 /// Variance of one sample at equal counts.
-inline double equal_variance(const PixelIntegrals& pixel) {
-  return pixel.count_variance(kIterationSamples / 2);
-}
+inline double equal_variance(const PixelIntegrals& pixel) { return pixel.count_variance(kEqual); }
 
 }  // namespace plumbline::bench

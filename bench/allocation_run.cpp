@@ -18,7 +18,6 @@ namespace {
 using renderer::Allocation;
 using renderer::Scene;
 
-constexpr std::size_t kEqual = kIterationSamples / 2;
 constexpr auto kSamples = static_cast<double>(kIterations * kIterationSamples);
 
 // The other policies draw nearly the samples that root-nodes draws with the same seed.

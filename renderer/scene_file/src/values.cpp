@@ -184,9 +184,7 @@ bool parse_boolean(Node at, std::string_view text, const Range& /*range*/) {
 
 std::string parse_string(Node at, std::string_view text, const Range& range) {
   const std::vector<std::string>& known = range.choices;
-  if (known.empty() || std::find(known.begin(), known.end(), text) != known.end()) {
-    return std::string(text);
-  }
+  if (known.empty() || contains(known, text)) return std::string(text);
   fail(at, "{} is not supported; supported: {}", in_quotes(text), range.text());
 }
 

@@ -107,8 +107,8 @@ Crowding crowd_of(std::vector<double> values) {
 }
 
 constexpr double kCrowd = 0.005;
-constexpr double kNearPoint = 0x1p-12;
-constexpr double kBesidePoint = 1e-5;
+constexpr double kNeighboursInFloat = 0x1p-12;
+constexpr double kBesideDomain = 1e-5;
 
 Vec3 most_frequent_point(const std::vector<SampleRecord>& samples) {
   std::map<Vec3, int> counts;
@@ -152,7 +152,7 @@ std::array<std::vector<double>, 3> coordinates_of_samples(const ViewEvidence& vi
     }
     // Surfaces lie in planes, which is no fault: the chart's coordinates vary. Beside the domain
     // the chart clamps, not the sampler.
-    if (domain.chart().distance(s.x) > kBesidePoint) continue;
+    if (domain.chart().distance(s.x) > kBesideDomain) continue;
     const Point2 p = domain.chart().to_square(s.x);
     for (std::size_t i = 0; i < 2; ++i) coordinates[i].push_back(p[i]);
   }
@@ -201,7 +201,7 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
       ++varying;
       if (c.distinct > 4 && c.different < 0.2 && static_cast<double>(c.distinct) < count / 8) {
         // Values as close as that are neighbours in float; wide apart, they are put there.
-        const bool close = c.range / static_cast<double>(c.distinct) < kNearPoint;
+        const bool close = c.range / static_cast<double>(c.distinct) < kNeighboursInFloat;
         if (in_float && close) {
           return Finding{CauseKind::precision,
                          "samples take few different values (" + number(std::uint64_t(c.distinct)) +

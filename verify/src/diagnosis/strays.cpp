@@ -78,8 +78,8 @@ std::optional<Cause> explain_strays(const ReportEvidence& evidence, const Observ
   if (!inside.judge(as_stated).admissible) return of_overshoot(evidence, inside, strays, share);
   const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
   // At most about half of a reflected lobe lies below the horizon, at grazing angles.
-  constexpr double kHalf = 0.6;
-  if (beyond > 0.98 * strays && share < kHalf) {
+  constexpr double kMostBelow = 0.6;
+  if (beyond > 0.98 * strays && share < kMostBelow) {
     return Cause{CauseKind::not_rejected,
                  "samples below the horizon are not rejected: up to " + some +
                      " lie where pdf() is 0, and the rest are as dense as it says",

@@ -12,7 +12,6 @@ namespace {
 
 // A tile of this many pixels shows the skewness of its own noise.
 constexpr int kPixelsForSkewness = 64;
-constexpr double kTileSkewnessLimit = 0.1;
 // Equal samples that make a constant believable, and zeros that make darkness believable.
 constexpr double kEnoughEqualSamples = 20'000;
 constexpr double kEnoughZeros = 1 << 20;
@@ -140,8 +139,7 @@ TileTest test_tile(const Residuals& r, const Tile& tile, double around2, double 
 
   const bool single_pixels_unknown = r.variance.empty() && tile.pixels < kPixelsForSkewness;
   const bool too_few = !r.samples.empty() && tile.samples < kSamplesPerPixel;
-  if (single_pixels_unknown || too_few || !(std::abs(tile.skewness) <= kTileSkewnessLimit))
-    return test;
+  if (single_pixels_unknown || too_few || !(std::abs(tile.skewness) <= kSkewnessLimit)) return test;
   Evidence e;
   e.estimate = std::copysign(excess, tile.residual);
   e.standard_error = std::sqrt(std::max(tile.error2, around2));

@@ -15,8 +15,6 @@ namespace {
 constexpr std::uint64_t kMinimumSamples = 1'000;
 constexpr std::uint64_t kEnoughZerosToPass = 20'000;
 constexpr std::uint64_t kEnoughZerosToFail = 1u << 20;
-// Reached by a Bernoulli estimator after 100 hits; see docs/statistics.md for what it guarantees.
-constexpr double kSkewnessLimit = 0.1;
 constexpr double kShareLimit = 0.15;
 // A tail index of 2 or less means infinite variance.
 constexpr double kTailLimit = 2;

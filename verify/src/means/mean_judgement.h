@@ -9,6 +9,10 @@
 /// The verdict on one look at an estimate, shared by mean, agreement and image checks.
 namespace plumbline::verify {
 
+/// Of an estimate that is judged at all: reached by a Bernoulli estimator after 100 hits;
+/// docs/statistics.md says what it guarantees.
+inline constexpr double kSkewnessLimit = 0.1;
+
 /// All in units of the quantity; levels as the look plan gives them.
 struct MeanQuestion {
   double reference = 0;

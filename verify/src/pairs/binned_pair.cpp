@@ -26,8 +26,6 @@ constexpr double kMassErrorPerDeviation = 0.008;
 constexpr double kLooseMassErrors = 5, kLooseMassError = 2.5e-4;
 // A bin as narrow as that around a sixteenth of its depth's share of the samples is a line.
 constexpr double kLine = 1e-11;
-// A float direction that rounding put outside the support is within a few 2^-24 of it.
-constexpr double kRoundingDistance = 2e-6;
 // Farther than this from the domain is not rounding either.
 constexpr double kOutside = 1e-4;
 constexpr std::size_t kStraysKept = 64;
@@ -215,14 +213,17 @@ void BinnedPair::count_atom(const SampleRecord& sample) {
   }
 }
 
-bool BinnedPair::is_stray(const Vec3& x) const {
-  if (!tree_) return true;
+bool positive_near(const SamplingPair& pair, const Vec3& x) {
+  // A float direction that rounding put outside the support is within a few 2^-24 of it.
+  constexpr double kRoundingDistance = 2e-6;
   for (int k = 0; k < 8; ++k) {
     const double angle = k * std::numbers::pi / 4;
-    if (pair_.pdf(pair_.domain.chart().near(x, kRoundingDistance, angle)) > 0) return false;
+    if (pair.pdf(pair.domain.chart().near(x, kRoundingDistance, angle)) > 0) return true;
   }
-  return true;
+  return false;
 }
+
+bool BinnedPair::is_stray(const Vec3& x) const { return !tree_ || !positive_near(pair_, x); }
 
 void BinnedPair::count_point(const Vec3& x) {
   const double density = finite(x) ? pair_.pdf(x) : -1;

@@ -13,6 +13,9 @@
 /// A sampling pair cut into bins: what the pdf expects of each, and what the sampler put there.
 namespace plumbline::verify {
 
+/// Whether pdf() is positive somewhere within rounding of a point, for a domain with a chart.
+bool positive_near(const SamplingPair& pair, const Vec3& x);
+
 /// Integral of a function of the domain, with samples of the pair as nodes where it is not smooth:
 /// the pair's f·|cosθ|.
 ///

@@ -8,6 +8,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "pairs/battery.h"
+#include "pairs/binned_pair.h"
 #include "rounding.h"
 #include "streams.h"
 #include "text.h"
@@ -155,18 +156,9 @@ class Pointwise {
     double largest = 0;
     for (std::size_t c = 0; c < value.count; ++c) largest = std::max(largest, std::abs(value[c]));
     if (largest == 0) return;
-    support_.hold(pdf > 0 || positive_near(x), [&] {
+    support_.hold(pdf > 0 || positive_near(pair_, x), [&] {
       return "pdf is 0 where f·|cosθ| is " + number(largest) + ", at " + place(x);
     });
-  }
-
-  bool positive_near(const Vec3& x) const {
-    constexpr double kBesideIt = 2e-6;
-    for (int k = 0; k < 8; ++k) {
-      const double angle = k * std::numbers::pi / 4;
-      if (pair_.pdf(pair_.domain.chart().near(x, kBesideIt, angle)) > 0) return true;
-    }
-    return false;
   }
 
   void see(const std::optional<SampleRecord>& sample, const Uniforms* corner) {
@@ -186,7 +178,7 @@ class Pointwise {
     const double pdf = pair_.pdf(x);
     finite_.hold(pdf >= 0 && std::isfinite(pdf),
                  [&] { return "pdf is " + number(pdf) + " at " + where(); });
-    support_.hold(pdf > 0 || !(pdf == 0) || (!discrete_ && positive_near(x)),
+    support_.hold(pdf > 0 || !(pdf == 0) || (!discrete_ && positive_near(pair_, x)),
                   [&] { return "pdf is 0 at a sample, " + where(); });
     see_record(*sample, pdf, where);
     see_weight(*sample, pdf, where);
