@@ -8,6 +8,7 @@
 #include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
+#include "clock.h"
 #include "scenes.h"
 
 namespace plumbline::bench {
