@@ -1,6 +1,11 @@
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <plumbline/verify/detail/erase_bsdf.h>
 
@@ -51,76 +56,85 @@ class FrameChange {
   Vec3 normal_, tangent_{}, bitangent_{};
 };
 
+using Record = std::optional<SampleRecord>;
+using Density = Many<double(Vec3, Vec3)>;
+
 /// Everything that changes between what the code takes and gives and what the checks do.
 class Translator {
  public:
-  Translator(ErasedBsdf raw, const Conventions& conventions)
-      : raw_(std::move(raw)), c_(conventions), frame_(conventions) {}
+  explicit Translator(const Conventions& conventions) : c_(conventions), frame_(conventions) {}
 
-  using Density = std::function<double(const Vec3&, const Vec3&)>;
-
-  double probability(const BsdfLobe& lobe, const Vec3& wo) const {
-    return lobe.probability(given(wo));
+  /// wo as the author takes it.
+  Vec3 given(const Vec3& wo) const {
+    const Vec3 theirs = frame_.to_theirs(wo);
+    return c_.given_points_in ? scaled(theirs, -1) : theirs;
   }
 
-  double pdf(const Density& density, const Vec3& wo, const Vec3& wi) const {
-    const double theirs = call(density, wo, wi);
+  /// f(wo, wi) by a function of the author's.
+  template <class R>
+  R call(const Many<R(Vec3, Vec3)>& f, const Vec3& wo, const Vec3& wi) const {
+    return in_their_order(f, given(wo), frame_.to_theirs(wi));
+  }
+
+  template <class R>
+  void call(const Many<R(Vec3, Vec3)>& f, std::span<const Vec3> wo, std::span<const Vec3> wi,
+            std::span<R> out) const {
+    std::vector<Vec3> theirs(wi.size());
+    for (std::size_t i = 0; i < wi.size(); ++i) theirs[i] = frame_.to_theirs(wi[i]);
+    in_their_order(f, given(wo), theirs, out);
+  }
+
+  std::vector<Vec3> given(std::span<const Vec3> wo) const {
+    std::vector<Vec3> theirs(wo.size());
+    for (std::size_t i = 0; i < wo.size(); ++i) theirs[i] = given(wo[i]);
+    return theirs;
+  }
+
+  double density(double theirs, const Vec3& wi) const {
     return c_.projected_pdf ? theirs * std::abs(wi[2]) : theirs;
   }
 
-  Channels eval(const Vec3& wo, const Vec3& wi) const {
-    Channels f = call(raw_.eval, wo, wi);
+  Channels value(Channels theirs, const Vec3& wi) const {
     const double cosine = std::abs(wi[2]);
     // On the horizon f·|cosθ| says nothing about f, and nothing is asked of it.
-    if (c_.cosine_in_eval) scale(f, cosine > 0 ? 1 / cosine : 0);
-    return f;
+    if (c_.cosine_in_eval) scale(theirs, cosine > 0 ? 1 / cosine : 0);
+    return theirs;
   }
 
-  /// @param density  that the samples should have, in the author's conventions
-  template <class Source>
-  std::optional<SampleRecord> sample(
-      const std::function<std::optional<SampleRecord>(const Vec3&, Source)>& function,
-      const Density& density, const Vec3& wo, Source source) const {
-    auto record = function(given(wo), source);
+  /// Whether a record that does not state its density is asked for it.
+  bool wants_density(const Record& theirs) const {
+    if (!theirs || theirs->mass > 0 || theirs->pdf) return false;
+    const bool for_weight =
+        theirs->weight.count > 0 &&
+        (c_.weight == Conventions::Weight::f || c_.weight == Conventions::Weight::f_cosine);
+    return c_.zero_pdf_is_failure || for_weight;
+  }
+
+  /// @param density  of the author's pdf at the sample, where `wants_density`
+  Record record(Record record, double density) const {
     if (!record) return std::nullopt;
-    const auto probability = [&, theirs = record->x] {
-      if (record->mass > 0) return record->mass;
-      return record->pdf ? *record->pdf : in_their_order(density, given(wo), theirs);
-    };
-    if (c_.zero_pdf_is_failure && record->mass == 0 && probability() == 0) return std::nullopt;
+    const double probability = record->mass > 0 ? record->mass : record->pdf.value_or(density);
+    if (c_.zero_pdf_is_failure && record->mass == 0 && probability == 0) return std::nullopt;
     record->x = frame_.to_ours(record->x);
     translate_weight(*record, probability);
     if (c_.projected_pdf && record->pdf) *record->pdf *= std::abs(record->x[2]);
     return record;
   }
 
-  const ErasedBsdf& raw() const { return raw_; }
+  /// The author's pdf in the author's frame.
+  template <class Given, class Sampled, class... Out>
+  auto in_their_order(const auto& f, const Given& given, const Sampled& sampled,
+                      const Out&... out) const {
+    return c_.sampled_direction_first ? f(sampled, given, out...) : f(given, sampled, out...);
+  }
 
  private:
-  Vec3 given(const Vec3& wo) const {
-    const Vec3 theirs = frame_.to_theirs(wo);
-    return c_.given_points_in ? scaled(theirs, -1) : theirs;
-  }
-
-  template <class R>
-  R call(const std::function<R(const Vec3&, const Vec3&)>& f, const Vec3& wo,
-         const Vec3& wi) const {
-    return in_their_order(f, given(wo), frame_.to_theirs(wi));
-  }
-
-  template <class R>
-  R in_their_order(const std::function<R(const Vec3&, const Vec3&)>& f, const Vec3& given,
-                   const Vec3& sampled) const {
-    return c_.sampled_direction_first ? f(sampled, given) : f(given, sampled);
-  }
-
   static void scale(Channels& channels, double factor) {
     for (std::size_t i = 0; i < channels.count; ++i) channels.value[i] *= factor;
   }
 
   /// @param probability  the record's pdf in the author's measure, or mass
-  template <class Probability>
-  void translate_weight(SampleRecord& record, const Probability& probability) const {
+  void translate_weight(SampleRecord& record, double probability) const {
     if (c_.weight == Conventions::Weight::throughput || record.weight.count == 0) return;
     if (c_.weight == Conventions::Weight::unused) {
       record.weight = {};
@@ -129,62 +143,111 @@ class Translator {
     const double cosine = std::abs(record.x[2]);
     const double projected = c_.projected_pdf && !(record.mass > 0) ? cosine : 1;
     const double value = c_.weight == Conventions::Weight::f ? cosine : 1;
-    scale(record.weight, value / (projected * probability()));
+    scale(record.weight, value / (projected * probability));
   }
 
-  ErasedBsdf raw_;
   Conventions c_;
   FrameChange frame_;
 };
 
-/// @param lobe  of the translator's own BSDF, which it keeps
-BsdfLobe translated(const std::shared_ptr<const Translator>& translator, const BsdfLobe& lobe) {
-  BsdfLobe ours;
-  ours.numbers = lobe.numbers;
-  ours.probability = [translator, &lobe](const Vec3& wo) {
-    return translator->probability(lobe, wo);
-  };
-  ours.pdf = [translator, &lobe](const Vec3& wo, const Vec3& wi) {
-    return translator->pdf(lobe.pdf, wo, wi);
-  };
-  if (lobe.sample) {
-    ours.sample = [translator, &lobe](const Vec3& wo, const Uniforms& u) {
-      return translator->sample<const Uniforms&>(lobe.sample, lobe.pdf, wo, u);
-    };
+using Shared = std::shared_ptr<const Translator>;
+
+struct TranslatedDensity {
+  Shared to;
+  Density theirs;
+
+  double operator()(const Vec3& wo, const Vec3& wi) const {
+    return to->density(to->call(theirs, wo, wi), wi);
   }
-  if (lobe.draw) {
-    ours.draw = [translator, &lobe](const Vec3& wo, Random& random) {
-      return translator->sample<Random&>(lobe.draw, lobe.pdf, wo, random);
-    };
+  void operator()(std::span<const Vec3> wo, std::span<const Vec3> wi, std::span<double> out) const {
+    to->call(theirs, wo, wi, out);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = to->density(out[i], wi[i]);
   }
-  return ours;
+};
+
+struct TranslatedValue {
+  Shared to;
+  Many<Channels(Vec3, Vec3)> theirs;
+
+  Channels operator()(const Vec3& wo, const Vec3& wi) const {
+    return to->value(to->call(theirs, wo, wi), wi);
+  }
+  void operator()(std::span<const Vec3> wo, std::span<const Vec3> wi,
+                  std::span<Channels> out) const {
+    to->call(theirs, wo, wi, out);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = to->value(out[i], wi[i]);
+  }
+};
+
+/// Samples, with the density that they should have where they do not state it.
+struct TranslatedSample {
+  Shared to;
+  Many<Record(Vec3, Uniforms)> theirs;
+  Density density;
+
+  Record operator()(const Vec3& wo, const Uniforms& u) const {
+    const Vec3 given = to->given(wo);
+    Record record = theirs(given, u);
+    const double p = to->wants_density(record) ? to->in_their_order(density, given, record->x) : 0;
+    return to->record(std::move(record), p);
+  }
+
+  void operator()(std::span<const Vec3> wo, std::span<const Uniforms> u,
+                  std::span<Record> out) const {
+    const std::vector<Vec3> given = to->given(wo);
+    theirs(given, u, out);
+    std::vector<Vec3> of, at;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if (!to->wants_density(out[i])) continue;
+      of.push_back(given[i]);
+      at.push_back(out[i]->x);
+    }
+    std::vector<double> p(at.size());
+    to->in_their_order(density, of, at, std::span(p));
+    std::size_t next = 0;
+    for (Record& record : out) {
+      const double at_record = to->wants_density(record) ? p[next++] : 0;
+      record = to->record(std::move(record), at_record);
+    }
+  }
+};
+
+/// The same of code that takes a generator.
+struct TranslatedDraw {
+  Shared to;
+  std::function<Record(const Vec3&, Random&)> theirs;
+  Density density;
+
+  Record operator()(const Vec3& wo, Random& random) const {
+    const Vec3 given = to->given(wo);
+    Record record = theirs(given, random);
+    const double p = to->wants_density(record) ? to->in_their_order(density, given, record->x) : 0;
+    return to->record(std::move(record), p);
+  }
+};
+
+/// `sample`, `draw` and `pdf` of a BSDF or of a lobe.
+template <class T>
+void translate_sampling(const Shared& to, T& it) {
+  if (it.sample) it.sample = {TranslatedSample{to, it.sample, it.pdf}, it.sample.batch()};
+  if (it.draw) it.draw = TranslatedDraw{to, it.draw, it.pdf};
+  it.pdf = {TranslatedDensity{to, it.pdf}, it.pdf.batch()};
 }
 
 }  // namespace
 
-ErasedBsdf apply_conventions(ErasedBsdf raw, const BsdfConventions& conventions) {
-  const auto translator = std::make_shared<const Translator>(std::move(raw), conventions);
-  const ErasedBsdf& theirs = translator->raw();
-  ErasedBsdf ours;
-  ours.epsilon = theirs.epsilon;
-  ours.numbers = theirs.numbers;
-  for (const BsdfLobe& lobe : theirs.lobes) ours.lobes.push_back(translated(translator, lobe));
-  ours.pdf = [translator](const Vec3& wo, const Vec3& wi) {
-    return translator->pdf(translator->raw().pdf, wo, wi);
-  };
-  ours.eval = [translator](const Vec3& wo, const Vec3& wi) { return translator->eval(wo, wi); };
-  if (theirs.sample) {
-    ours.sample = [translator](const Vec3& wo, const Uniforms& u) {
-      return translator->sample<const Uniforms&>(translator->raw().sample, translator->raw().pdf,
-                                                 wo, u);
+ErasedBsdf apply_conventions(ErasedBsdf bsdf, const BsdfConventions& conventions) {
+  if (conventions == BsdfConventions{}) return bsdf;
+  const auto to = std::make_shared<const Translator>(conventions);
+  translate_sampling(to, bsdf);
+  if (bsdf.eval) bsdf.eval = {TranslatedValue{to, bsdf.eval}, bsdf.eval.batch()};
+  for (BsdfLobe& lobe : bsdf.lobes) {
+    translate_sampling(to, lobe);
+    lobe.probability = [to, theirs = lobe.probability](const Vec3& wo) {
+      return theirs(to->given(wo));
     };
   }
-  if (theirs.draw) {
-    ours.draw = [translator](const Vec3& wo, Random& random) {
-      return translator->sample<Random&>(translator->raw().draw, translator->raw().pdf, wo, random);
-    };
-  }
-  return ours;
+  return bsdf;
 }
 
 std::optional<SampleRecord> ErasedBsdf::next(const Vec3& wo, Random& random) const {

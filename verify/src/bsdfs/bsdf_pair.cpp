@@ -1,17 +1,57 @@
 #include <cmath>
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <plumbline/verify/bsdf.h>
 
 #include "pairs/uniforms.h"
+
 namespace plumbline::verify {
 
 namespace {
 
 /// Held by all functions of a pair together.
 using Held = std::shared_ptr<const ErasedBsdf>;
+
+/// A function of wo and something else, with wo fixed.
+template <class R, class A>
+struct FromDirection {
+  Many<R(Vec3, A)> function;
+  Vec3 wo;
+
+  R operator()(const A& a) const { return function(wo, a); }
+  void operator()(std::span<const A> a, std::span<R> out) const {
+    function(std::vector<Vec3>(a.size(), wo), a, out);
+  }
+};
+
+template <class R, class A>
+Many<R(A)> from_direction(const Vec3& wo, const Many<R(Vec3, A)>& function) {
+  if (!function) return {};
+  return {FromDirection<R, A>{function, wo}, function.batch()};
+}
+
+/// f·|cosθ|
+struct TimesCosine {
+  Many<Channels(Vec3)> f;
+
+  static void weigh(const Vec3& wi, Channels& value) {
+    for (std::size_t c = 0; c < value.count; ++c) value.value[c] *= std::abs(wi[2]);
+  }
+  Channels operator()(const Vec3& wi) const {
+    Channels value = f(wi);
+    weigh(wi, value);
+    return value;
+  }
+  void operator()(std::span<const Vec3> wi, std::span<Channels> out) const {
+    f(wi, out);
+    for (std::size_t i = 0; i < out.size(); ++i) weigh(wi[i], out[i]);
+  }
+};
 
 bool same(const std::optional<SampleRecord>& a, const std::optional<SampleRecord>& b) {
   return a.has_value() == b.has_value() && (!a || a->x == b->x);
@@ -40,9 +80,9 @@ std::vector<PairLobe> lobes_at(const Held& bsdf, const Vec3& wo) {
     PairLobe at;
     at.name = "lobe " + std::to_string(i);
     at.probability = lobe.probability(wo);
-    at.pdf = [bsdf, &lobe, wo](const Vec3& wi) { return lobe.pdf(wo, wi); };
+    at.pdf = from_direction(wo, lobe.pdf);
     if (maps_a_square(lobe, wo)) {
-      at.sample = [bsdf, &lobe, wo](const Uniforms& u) { return lobe.sample(wo, u); };
+      at.sample = from_direction(wo, lobe.sample);
     } else if (lobe.draw) {
       at.draw = [bsdf, &lobe, wo](Random& random) { return lobe.draw(wo, random); };
     } else {
@@ -65,14 +105,10 @@ SamplingPair bsdf_pair(const std::string& name, const ErasedBsdf& erased, const 
   pair.domain = Domain::sphere();
   pair.numbers = bsdf->numbers;
   pair.epsilon = bsdf->epsilon;
-  if (bsdf->sample) pair.sample = [bsdf, wo](const Uniforms& u) { return bsdf->sample(wo, u); };
+  pair.sample = from_direction(wo, bsdf->sample);
   if (bsdf->draw) pair.draw = [bsdf, wo](Random& random) { return bsdf->draw(wo, random); };
-  pair.pdf = [bsdf, wo](const Vec3& wi) { return bsdf->pdf(wo, wi); };
-  pair.value = [bsdf, wo](const Vec3& wi) {
-    Channels f = bsdf->eval(wo, wi);
-    for (std::size_t c = 0; c < f.count; ++c) f.value[c] *= std::abs(wi[2]);
-    return f;
-  };
+  pair.pdf = from_direction(wo, bsdf->pdf);
+  pair.value = {TimesCosine{from_direction(wo, bsdf->eval)}, bsdf->eval.batch()};
   pair.lobes = lobes_at(bsdf, wo);
   for (const BsdfSuspect& s : options.suspects) {
     pair.suspects.push_back({s.name, [s, wo](const Vec3& wi) { return s.value(wo, wi); }});

@@ -31,7 +31,7 @@ class BranchSearch {
   std::optional<Uniforms> solve(const Vec3& x, Uniforms u) const;
   std::optional<Uniforms> step(const Vec3& here, const Vec3& x, const Uniforms& u) const;
 
-  const Map& map_;
+  Map map_;
   int dimension_;
   double epsilon_;
   std::size_t per_side_;

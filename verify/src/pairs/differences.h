@@ -9,7 +9,7 @@
 namespace plumbline::verify {
 
 /// A map from uniform numbers to points, without its weights.
-using Map = std::function<std::optional<SampleRecord>(const Uniforms&)>;
+using Map = Many<std::optional<SampleRecord>(Uniforms)>;
 
 /// A density at a point, with its relative error.
 struct DensityAt {

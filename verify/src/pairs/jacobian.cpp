@@ -89,7 +89,7 @@ class Jacobian {
   }
 
  private:
-  void visit(const Map& map, const std::function<double(const Vec3&)>& pdf, int points) {
+  void visit(const Map& map, const Many<double(Vec3)>& pdf, int points) {
     for (int i = 0; i < points; ++i) {
       Uniforms u{};
       for (int d = 0; d < pair_.numbers; ++d)

@@ -15,7 +15,7 @@ namespace plumbline::verify {
 
 namespace {
 
-using Sampler = std::function<std::optional<SampleRecord>(const Uniforms&)>;
+using Sampler = Many<std::optional<SampleRecord>(Uniforms)>;
 
 constexpr double kShareLevel = 1e-3;
 constexpr std::uint64_t kMostCounted = 1 << 24;

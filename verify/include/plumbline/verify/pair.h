@@ -6,11 +6,13 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <plumbline/verify/detail/domain.h>
+#include <plumbline/verify/detail/many.h>
 #include <plumbline/verify/detail/random.h>
 #include <plumbline/verify/detail/report.h>
 #include <plumbline/verify/detail/settings.h>
@@ -50,9 +52,9 @@ struct PairLobe {
 
   /// Empty where it takes a generator, or more numbers than the domain has dimensions: the Jacobian
   /// of that lobe is skipped then.
-  std::function<std::optional<SampleRecord>(const Uniforms&)> sample;
+  Many<std::optional<SampleRecord>(Uniforms)> sample;
 
-  std::function<double(const Vec3&)> pdf;
+  Many<double(Vec3)> pdf;
 
   /// In place of `sample`.
   std::function<std::optional<SampleRecord>(Random&)> draw = {};
@@ -85,16 +87,18 @@ struct SamplingPair {
   /// numbers it gets and how closely it can be expected to agree with itself.
   double epsilon = 0x1p-53;
 
+  // All of these are written for one point, or for spans of them: see many.h.
+
   /// nullopt: the sample was rejected.
-  std::function<std::optional<SampleRecord>(const Uniforms&)> sample;
+  Many<std::optional<SampleRecord>(Uniforms)> sample;
 
   /// In place of `sample`, for code that takes a random generator. The Jacobian is skipped then.
   std::function<std::optional<SampleRecord>(Random&)> draw;
 
-  std::function<double(const Vec3&)> pdf;
+  Many<double(Vec3)> pdf;
 
   /// What weight · pdf must equal: f·|cosθ| of a BSDF. Empty where the pair has no weight.
-  std::function<Channels(const Vec3&)> value;
+  Many<Channels(Vec3)> value;
 
   std::vector<PairLobe> lobes;  ///< of a mixture; empty: one smooth map
 
@@ -109,6 +113,9 @@ struct SamplingPair {
 
   /// One sample from the generator, by whichever of `sample` and `draw` there is.
   std::optional<SampleRecord> next(Random& random) const;
+
+  /// The next ones: the same as one by one.
+  void next(Random& random, std::span<std::optional<SampleRecord>> samples) const;
 };
 
 namespace detail {

@@ -52,13 +52,15 @@ struct BsdfConventions {
     unused       ///< nothing that is to be checked
   };
   Weight weight = Weight::throughput;
+
+  friend bool operator==(const BsdfConventions&, const BsdfConventions&) = default;
 };
 
 /// A lobe of a BSDF that exposes its lobes.
 struct BsdfLobe {
   std::function<double(const Vec3& wo)> probability;
-  std::function<std::optional<SampleRecord>(const Vec3& wo, const Uniforms&)> sample;
-  std::function<double(const Vec3& wo, const Vec3& wi)> pdf;
+  Many<std::optional<SampleRecord>(Vec3, Uniforms)> sample;                       ///< of wo, u
+  Many<double(Vec3, Vec3)> pdf;                                                   ///< of wo, wi
   std::function<std::optional<SampleRecord>(const Vec3& wo, Random&)> draw = {};  ///< or `sample`
   int numbers = 2;  ///< uniform numbers that `sample` takes
 };
@@ -66,20 +68,20 @@ struct BsdfLobe {
 /// A BSDF with its types erased and its conventions brought to Plumbline's: local frame, z the
 /// normal, all directions away from the surface, eval without cosine, pdf per solid angle.
 struct ErasedBsdf {
-  double epsilon = 0x1p-53;  ///< rounding unit of its arithmetic
-  int numbers = 2;           ///< uniform numbers that sample takes
-  std::function<std::optional<SampleRecord>(const Vec3& wo, const Uniforms&)> sample;
+  double epsilon = 0x1p-53;                                  ///< rounding unit of its arithmetic
+  int numbers = 2;                                           ///< uniform numbers that sample takes
+  Many<std::optional<SampleRecord>(Vec3, Uniforms)> sample;  ///< of wo, u
   std::function<std::optional<SampleRecord>(const Vec3& wo, Random&)> draw;  ///< or this
-  std::function<double(const Vec3& wo, const Vec3& wi)> pdf;
-  std::function<Channels(const Vec3& wo, const Vec3& wi)> eval;
-  std::vector<BsdfLobe> lobes;  ///< empty: not exposed
+  Many<double(Vec3, Vec3)> pdf;                                              ///< of wo, wi
+  Many<Channels(Vec3, Vec3)> eval;                                           ///< of wo, wi
+  std::vector<BsdfLobe> lobes;                                               ///< empty: not exposed
 
   /// One sample from the generator, by whichever of `sample` and `draw` there is.
   std::optional<SampleRecord> next(const Vec3& wo, Random& random) const;
 };
 
 /// Brings a BSDF from its author's conventions to Plumbline's.
-ErasedBsdf apply_conventions(ErasedBsdf raw, const BsdfConventions& conventions);
+ErasedBsdf apply_conventions(ErasedBsdf bsdf, const BsdfConventions& conventions);
 
 namespace detail {
 
