@@ -91,6 +91,14 @@ BsdfOptions few_directions() {
   return options;
 }
 
+TEST(Batches, AskForManyValuesAtOnce) {
+  Asked asked;
+  const Report report =
+      check_bsdf("mirror", in_spans(erased(RoughMirror{0.3}), asked), few_directions());
+  EXPECT_TRUE(report.ok()) << report.summary();
+  EXPECT_LT(asked.calls, asked.values / 100);
+}
+
 TEST(Batches, GiveTheReportThatOneByOneGives) {
   BsdfConventions conventions;
   conventions.frame = BsdfConventions::Frame::local_y_up;

@@ -2,9 +2,11 @@
 #include <plumbline_tests/support.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <plumbline/verify/pair.h>
 
@@ -44,17 +46,25 @@ void expect_known(const Function& f, double truth, double target, const char* na
   EXPECT_LE(r.error(1e-3), 2 * target) << name;
 }
 
+CellFit fit_of(const Function& f, const Box& box) {
+  std::vector<Point2> points;
+  CellFit::add_points(box, 2, points);
+  std::vector<double> values;
+  for (const Point2& p : points) values.push_back(f(p));
+  return CellFit(box, 2, values);
+}
+
 TEST(MassIntegral, IsExactForTheSeventhDegree) {
   // ∫∫ x³y⁴ = 1/20, ∫∫ x⁷ = 1/8 over the unit square.
-  const CellFit fit(
-      [](const Point2& p) { return std::pow(p[0], 3) * std::pow(p[1], 4) + std::pow(p[0], 7); }, {},
-      2);
+  const CellFit fit = fit_of(
+      [](const Point2& p) { return std::pow(p[0], 3) * std::pow(p[1], 4) + std::pow(p[0], 7); },
+      {});
   EXPECT_NEAR(fit.integral(), 1.0 / 20 + 1.0 / 8, 1e-14);
 }
 
 TEST(MassIntegral, FitsWhatIsCubicInEachCoordinate) {
   const auto f = [](const Point2& p) { return 2 + p[0] * p[0] * p[0] * p[1] - 3 * p[1] * p[1]; };
-  const CellFit fit(f, {{0.2, 0.5}, {0.4, 0.9}}, 2);
+  const CellFit fit = fit_of(f, {{0.2, 0.5}, {0.4, 0.9}});
   EXPECT_NEAR(fit.at({0.21, 0.77}), f({0.21, 0.77}), 1e-14);
   EXPECT_NEAR(fit.at({0.4, 0.5}), f({0.4, 0.5}), 1e-14);
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 /// What rounding does to a function, measured: enough for what formulas lose, and no more.
 namespace plumbline::verify {
@@ -14,8 +15,12 @@ using Point = std::array<Vec3, 1>;
 
 template <class F>
 double spread_at(const Vec3& x, const F& f, Coordinates coordinates = Coordinates::directions) {
-  return spread_by_rounding(Point{x}, kEpsilon, coordinates,
-                            [&](const Point& p) { return f(p[0]); });
+  const auto at_all = [&](const std::vector<Point>& places) {
+    std::vector<double> values;
+    for (const Point& p : places) values.push_back(f(p[0]));
+    return values;
+  };
+  return spread_by_rounding(Point{x}, kEpsilon, coordinates, at_all);
 }
 
 TEST(Rounding, OfASmoothFunctionIsAFewUlps) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <plumbline/verify/detail/vector_access.h>
 
@@ -75,20 +76,26 @@ std::array<Vec3, N> moved(const std::array<Vec3, N>& x, const std::array<Vec3, N
 ///
 /// Neighbours where f is not finite show nothing.
 ///
-/// @param f  of the same number of points
+/// @param f  of many places, each of the same number of points, to a vector of numbers
 template <std::size_t N, class F>
 double spread_by_rounding(const std::array<Vec3, N>& x, double epsilon, Coordinates coordinates,
                           const F& f) {
   Moves moves(coordinates);
-  const double here = f(x);
+  std::vector<std::array<Vec3, N>> places{x};
+  for (std::size_t k = 0; k < kNeighbours; ++k) {
+    places.push_back(moved(x, moves.draw(x, 16 * epsilon), 1));
+    const auto by = moves.draw(x, std::sqrt(8 * epsilon));
+    places.push_back(moved(x, by, 1));
+    places.push_back(moved(x, by, -1));
+  }
+  const std::vector<double> values = f(places);
   double spread = 0;
   const auto see = [&spread](double change) {
     if (std::isfinite(change)) spread = std::max(spread, std::abs(change));
   };
   for (std::size_t k = 0; k < kNeighbours; ++k) {
-    see(f(moved(x, moves.draw(x, 16 * epsilon), 1)) - here);
-    const auto by = moves.draw(x, std::sqrt(8 * epsilon));
-    see(f(moved(x, by, 1)) + f(moved(x, by, -1)) - 2 * here);
+    see(values[3 * k + 1] - values[0]);
+    see(values[3 * k + 2] + values[3 * k + 3] - 2 * values[0]);
   }
   return spread;
 }

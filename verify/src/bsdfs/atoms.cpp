@@ -32,8 +32,9 @@ CheckResult check_atoms(const std::string& name, const ErasedBsdf& bsdf, const V
   r.tolerance = tolerance;
   r.leaned_on = "laws of reflection and refraction";
   double worst = 0;
-  for (int i = 0; i < kAtomProbes; ++i) {
-    const auto s = bsdf.next(wo, random);
+  std::vector<std::optional<SampleRecord>> samples(kAtomProbes);
+  bsdf_pair(name, bsdf, wo, options).next(random, samples);
+  for (const auto& s : samples) {
     if (!s || s->mass == 0) continue;
     ++r.samples;
     const double distance = distance_from_law(wo, s->x, options.eta);

@@ -9,6 +9,7 @@
 
 #include <plumbline/verify/detail/erase_bsdf.h>
 
+#include "pairs/batches.h"
 #include "pairs/uniforms.h"
 #include "vec3.h"
 
@@ -56,7 +57,6 @@ class FrameChange {
   Vec3 normal_, tangent_{}, bitangent_{};
 };
 
-using Record = std::optional<SampleRecord>;
 using Density = Many<double(Vec3, Vec3)>;
 
 /// Everything that changes between what the code takes and gives and what the checks do.

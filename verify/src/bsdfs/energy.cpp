@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 
 #include "bsdfs/bsdf_checks.h"
 #include "bsdfs/bsdf_result.h"
+#include "pairs/batches.h"
 #include "pairs/binned_pair.h"
 #include "streams.h"
 #include "text.h"
@@ -18,14 +21,19 @@ namespace plumbline::verify {
 
 namespace {
 
+std::vector<Record> probes(const SamplingPair& pair, Random& random) {
+  std::vector<Record> samples(kAtomProbes);
+  pair.next(random, samples);
+  return samples;
+}
+
 /// Part of the albedo that atoms carry, in one channel, freed of η².
 double atoms_albedo(const SamplingPair& pair, const Vec3& wo, double eta, std::size_t channel,
                     std::uint64_t seed) {
   Random random = random_for(seed, Stream::atoms_albedo);
   std::vector<Vec3> seen;
   double sum_of_atoms = 0;
-  for (int i = 0; i < kAtomProbes; ++i) {
-    const auto s = pair.next(random);
+  for (const Record& s : probes(pair, random)) {
     if (!s || s->mass == 0 || s->weight.count <= channel) continue;
     const bool known = std::any_of(seen.begin(), seen.end(), [&](const Vec3& x) {
       return length(sum(x, scaled(s->x, -1))) < 1e-5;
@@ -41,8 +49,7 @@ double atoms_albedo(const SamplingPair& pair, const Vec3& wo, double eta, std::s
 std::size_t brightest_channel(const SamplingPair& pair, std::uint64_t seed) {
   Random random = random_for(seed, Stream::channel);
   std::array<double, Channels::kMost> sums{};
-  for (int i = 0; i < kAtomProbes; ++i) {
-    const auto s = pair.next(random);
+  for (const Record& s : probes(pair, random)) {
     for (std::size_t c = 0; s && c < s->weight.count; ++c) sums[c] += s->weight[c];
   }
   return static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
@@ -65,12 +72,16 @@ CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const 
   const SamplingPair pair = bsdf_pair(name, bsdf, wo, options);
   const std::uint64_t seed = options.contract.seed;
   const std::size_t channel = options.albedo ? 0 : brightest_channel(pair, seed);
-  const auto value = [&](const Vec3& wi) {
-    const double scale = eta_squared(wi, options.eta) / eta_squared(wo, options.eta);
-    return pair.value(wi)[channel] * scale;
+  const auto value = [&](std::span<const Vec3> wi, std::span<double> out) {
+    std::vector<Channels> of(wi.size());
+    pair.value(wi, of);
+    for (std::size_t i = 0; i < wi.size(); ++i) {
+      const double scale = eta_squared(wi[i], options.eta) / eta_squared(wo, options.eta);
+      out[i] = of[i][channel] * scale;
+    }
   };
-  const MassIntegral integral =
-      integrate_over_domain(pair, value, options.contract, options.energy_tolerance / 4);
+  const MassIntegral integral = integrate_over_domain(
+      pair, {value, pair.value.batch()}, options.contract, options.energy_tolerance / 4);
   const double atoms = atoms_albedo(pair, wo, options.eta, channel, seed);
 
   const ErrorBudget& budget = options.contract.budget;

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +14,7 @@
 #include "bsdfs/bsdf_checks.h"
 #include "bsdfs/bsdf_result.h"
 #include "diagnosis/diagnosis.h"
+#include "pairs/uniforms.h"
 #include "rounding.h"
 #include "streams.h"
 #include "text.h"
@@ -19,7 +23,7 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr int kPairs = 2'000;
+constexpr std::size_t kPairs = 2'000;
 // Part of the largest value below which a value matters to nothing, and is left out: the tails of
 // exponentials, where formulas lose their digits by underflow.
 constexpr double kOfThePeak = 1e-30;
@@ -82,29 +86,69 @@ class Reciprocity {
   }
 
  private:
-  double there(const Vec3& wo, const Vec3& wi, std::size_t c) const {
-    return bsdf_.eval(wo, wi)[c] / eta_squared(wo, options_.eta);
+  /// A channel of f, freed of η², at pairs of directions or at the same the other way.
+  std::vector<double> there(const std::vector<std::array<Vec3, 2>>& pairs, bool reversed,
+                            std::size_t c) const {
+    std::vector<Vec3> wo, wi;
+    for (const auto& [first, second] : pairs) {
+      wo.push_back(reversed ? second : first);
+      wi.push_back(reversed ? first : second);
+    }
+    std::vector<Channels> f(pairs.size());
+    bsdf_.eval(wo, wi, f);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      values.push_back(f[i][c] / eta_squared(wo[i], options_.eta));
+    }
+    return values;
   }
 
   std::vector<BothWays> draw_pairs() {
     std::vector<BothWays> pairs;
     if (!options_.front && !options_.back) return pairs;
-    Random random = random_for(options_.contract.seed, Stream::reciprocity);
-    const auto add = [&](const Vec3& wo, const Vec3& wi) {
-      pairs.push_back({wo, wi, bsdf_.eval(wo, wi), bsdf_.eval(wi, wo)});
-      for (auto& [f, w] : {std::pair{&pairs.back().there, wo}, {&pairs.back().back, wi}}) {
-        for (std::size_t c = 0; c < f->count; ++c) f->value[c] /= eta_squared(w, options_.eta);
-        peak_ = std::max(peak_, largest(*f));
-      }
-    };
-    for (int i = 0; i < kPairs; ++i) {
-      const Vec3 wo = random_direction(options_, random);
-      add(wo, random_direction(options_, random));
-      const auto sampled = bsdf_.next(wo, random);
-      if (sampled && sampled->mass == 0) add(wo, sampled->x);
+    draw_directions(pairs);
+    std::vector<Vec3> wo, wi;
+    for (const BothWays& p : pairs) {
+      wo.push_back(p.wo);
+      wi.push_back(p.wi);
+    }
+    std::vector<Channels> there(pairs.size()), back(pairs.size());
+    bsdf_.eval(wo, wi, there);
+    bsdf_.eval(wi, wo, back);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      pairs[i].there = freed_of_eta(there[i], wo[i]);
+      pairs[i].back = freed_of_eta(back[i], wi[i]);
+      peak_ = std::max({peak_, largest(pairs[i].there), largest(pairs[i].back)});
     }
     result_.samples = pairs.size();
     return pairs;
+  }
+
+  Channels freed_of_eta(Channels f, const Vec3& w) const {
+    for (std::size_t c = 0; c < f.count; ++c) f.value[c] /= eta_squared(w, options_.eta);
+    return f;
+  }
+
+  /// Of each wo a random wi, and one that is sampled, where there is a density.
+  void draw_directions(std::vector<BothWays>& pairs) const {
+    Random random = random_for(options_.contract.seed, Stream::reciprocity);
+    std::vector<Vec3> wo, wi;
+    std::vector<Uniforms> u;
+    std::vector<std::optional<SampleRecord>> sampled(kPairs);
+    for (std::size_t i = 0; i < kPairs; ++i) {
+      wo.push_back(random_direction(options_, random));
+      wi.push_back(random_direction(options_, random));
+      if (bsdf_.draw) {
+        sampled[i] = bsdf_.draw(wo[i], random);
+      } else {
+        u.push_back(draw_uniforms(random, bsdf_.numbers, bsdf_.epsilon));
+      }
+    }
+    if (!bsdf_.draw) bsdf_.sample(wo, u, sampled);
+    for (std::size_t i = 0; i < kPairs; ++i) {
+      pairs.push_back({wo[i], wi[i], {}, {}});
+      if (sampled[i] && sampled[i]->mass == 0) pairs.push_back({wo[i], sampled[i]->x, {}, {}});
+    }
   }
 
   void judge(const BothWays& p) {
@@ -135,10 +179,11 @@ class Reciprocity {
   /// What rounding does to f in both directions.
   double spread(const BothWays& p, std::size_t c) const {
     const auto of = [&](bool reversed) {
+      const auto ask = [&](const std::vector<std::array<Vec3, 2>>& places) {
+        return there(places, reversed, c);
+      };
       return spread_by_rounding(std::array{p.wo, p.wi}, bsdf_.epsilon, Coordinates::directions,
-                                [&](const std::array<Vec3, 2>& w) {
-                                  return reversed ? there(w[1], w[0], c) : there(w[0], w[1], c);
-                                });
+                                ask);
     };
     return of(false) + of(true);
   }

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <span>
+#include <vector>
 
+#include "pairs/batches.h"
 #include "streams.h"
 
 namespace plumbline::verify {
@@ -42,10 +46,11 @@ bool same_point(const Vec3& a, const Vec3& b) {
 /// Samples with a density, on the square.
 OwnSamples draw_own(const SamplingPair& pair, std::size_t count, Random& random) {
   OwnSamples points;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto s = pair.next(random);
-    if (s && s->mass == 0 && finite(s->x)) points.push_back(pair.domain.chart().to_square(s->x));
-  }
+  draw_in_batches(pair, random, count, [&](std::span<const Record> samples) {
+    for (const Record& s : samples) {
+      if (s && s->mass == 0 && finite(s->x)) points.push_back(pair.domain.chart().to_square(s->x));
+    }
+  });
   return points;
 }
 
@@ -62,23 +67,28 @@ int log2_of(std::size_t bins) {
   return depth;
 }
 
+/// A function of the domain, per unit of the chart's square.
+///
+/// @param chart  kept by the caller
+Many<double(Point2)> per_square(const Chart& chart, const Many<double(Vec3)>& function) {
+  const auto in_spans = [&chart, function](std::span<const Point2> p, std::span<double> out) {
+    std::vector<Vec3> x(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) x[i] = chart.from_square(p[i]);
+    function(x, out);
+    for (std::size_t i = 0; i < p.size(); ++i) out[i] *= chart.element(p[i]);
+  };
+  return {in_spans, function.batch()};
+}
+
 /// @param function  empty: the pair's own density
 MassIntegral integrate_over(const BinTree& tree, const SamplingPair& pair,
-                            const std::function<double(const Vec3&)>& function, std::size_t own,
+                            const Many<double(Vec3)>& function, std::size_t own,
                             const ContractOptions& options, double error) {
   const Chart& chart = pair.domain.chart();
   Random random = random_for(options.seed, Stream::own_nodes);
-  const auto density = [&](const Point2& p) {
-    return chart.element(p) * pair.pdf(chart.from_square(p));
-  };
   MassQuestion question;
-  question.integrand = density;
-  if (function) {
-    question.integrand = [&](const Point2& p) {
-      return chart.element(p) * function(chart.from_square(p));
-    };
-    question.density = density;
-  }
+  question.integrand = per_square(chart, function ? function : pair.pdf);
+  if (function) question.density = per_square(chart, pair.pdf);
   question.draw_own = [&](std::size_t count) { return draw_own(pair, count, random); };
   question.bin_at = [&](const Point2& p) { return tree.locate(p); };
   question.bins = tree.bins();
@@ -123,8 +133,11 @@ BinnedPair::BinnedPair(const SamplingPair& pair, const ContractOptions& options,
 void BinnedPair::tabulate_discrete() {
   expected_.value.assign(std::size_t{1} << depth_, 0.0);
   expected_.variance.assign(std::size_t{1} << depth_, 0.0);
-  for (std::size_t i = 0; i < pair_.domain.size(); ++i) {
-    const double probability = pair_.pdf({static_cast<double>(i), 0, 0});
+  std::vector<Vec3> points(pair_.domain.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {static_cast<double>(i), 0, 0};
+  const std::vector<double> probabilities = ask(pair_.pdf, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double probability = probabilities[i];
     expected_.value[i] = probability;
     expected_.total += probability;
     expected_.finite = expected_.finite && std::isfinite(probability) && probability >= 0;
@@ -154,8 +167,7 @@ void BinnedPair::measure_lines(const std::vector<Point2>& pilot) {
   on_lines_ = static_cast<double>(on_lines) / std::max(1.0, static_cast<double>(pilot.size()));
 }
 
-MassIntegral integrate_over_domain(const SamplingPair& pair,
-                                   const std::function<double(const Vec3&)>& function,
+MassIntegral integrate_over_domain(const SamplingPair& pair, const Many<double(Vec3)>& function,
                                    const ContractOptions& options, double error) {
   // Cells to begin with: no test needs their masses one by one, they are halved where it matters.
   constexpr int kDepth = 8;
@@ -170,33 +182,49 @@ MassIntegral integrate_over_domain(const SamplingPair& pair,
 void BinnedPair::measure_rounding(std::uint64_t seed) {
   constexpr int kPoints = 500;
   Random random = random_for(seed, Stream::rounding);
+  std::vector<Vec3> points, moved;
+  draw_in_batches(pair_, random, kPoints, [&](std::span<const Record> samples) {
+    for (const Record& s : samples) {
+      if (s && !(s->mass > 0) && finite(s->x)) points.push_back(s->x);
+    }
+  });
+  for (const Vec3& x : points) {
+    const double angle = 2 * std::numbers::pi * random.uniform();
+    moved.push_back(pair_.domain.chart().near(x, pair_.epsilon, angle));
+  }
+  const std::vector<double> here = ask(pair_.pdf, points), beside = ask(pair_.pdf, moved);
   double sum = 0;
   int count = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    const auto s = pair_.next(random);
-    if (!s || s->mass > 0 || !finite(s->x)) continue;
-    const double here = pair_.pdf(s->x);
-    const double beside = pair_.pdf(
-        pair_.domain.chart().near(s->x, pair_.epsilon, 2 * std::numbers::pi * random.uniform()));
-    if (!(here > 0 && beside > 0)) continue;
-    sum += std::min(1.0, std::abs(beside / here - 1));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!(here[i] > 0 && beside[i] > 0)) continue;
+    sum += std::min(1.0, std::abs(beside[i] / here[i] - 1));
     ++count;
   }
   rounding_ = count > 0 ? sum / count : 0;
 }
 
-void BinnedPair::draw(std::uint64_t count) {
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const auto sample = pair_.next(random_);
+void BinnedPair::draw(std::uint64_t count_of_samples) {
+  draw_in_batches(pair_, random_, count_of_samples,
+                  [&](std::span<const Record> samples) { count(samples); });
+  counts_.drawn += count_of_samples;
+}
+
+void BinnedPair::count(std::span<const Record> samples) {
+  std::vector<Vec3> points;
+  for (const Record& sample : samples) {
     if (!sample) {
       ++counts_.rejected;
     } else if (sample->mass > 0) {
       count_atom(*sample);
+    } else if (finite(sample->x)) {
+      points.push_back(sample->x);
     } else {
-      count_point(sample->x);
+      ++counts_.not_finite;
+      counts_.not_finite_at = sample->x;
     }
   }
-  counts_.drawn += count;
+  const std::vector<double> densities = ask(pair_.pdf, points);
+  for (std::size_t i = 0; i < points.size(); ++i) count_point(points[i], densities[i]);
 }
 
 void BinnedPair::count_atom(const SampleRecord& sample) {
@@ -225,8 +253,7 @@ bool positive_near(const SamplingPair& pair, const Vec3& x) {
 
 bool BinnedPair::is_stray(const Vec3& x) const { return !tree_ || !positive_near(pair_, x); }
 
-void BinnedPair::count_point(const Vec3& x) {
-  const double density = finite(x) ? pair_.pdf(x) : -1;
+void BinnedPair::count_point(const Vec3& x, double density) {
   if (!(density >= 0) || std::isinf(density)) {
     ++counts_.not_finite;
     counts_.not_finite_at = x;

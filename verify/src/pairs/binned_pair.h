@@ -1,8 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,8 +21,7 @@ bool positive_near(const SamplingPair& pair, const Vec3& x);
 /// the pair's f·|cosθ|.
 ///
 /// @param error  of the integral at 99.9 %, after which nothing more is spent
-MassIntegral integrate_over_domain(const SamplingPair& pair,
-                                   const std::function<double(const Vec3&)>& function,
+MassIntegral integrate_over_domain(const SamplingPair& pair, const Many<double(Vec3)>& function,
                                    const ContractOptions& options, double error);
 
 /// Error at 99.9 % to which masses have to be known for the chi-square test, whatever
@@ -91,7 +91,8 @@ class BinnedPair {
   void measure_rounding(std::uint64_t seed);
   void measure_lines(const std::vector<Point2>& pilot);
   void count_atom(const SampleRecord& sample);
-  void count_point(const Vec3& x);
+  void count(std::span<const std::optional<SampleRecord>> samples);
+  void count_point(const Vec3& x, double density);
   std::size_t locate(const Vec3& x) const;
   bool is_stray(const Vec3& x) const;
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "pairs/batches.h"
 #include "vec3.h"
 
 namespace plumbline::verify {
@@ -21,6 +22,11 @@ double squared_distance(const Vec3& a, const Vec3& b) {
   return dot(d, d);
 }
 
+std::optional<Vec3> point_of(const Record& sample) {
+  if (!sample || sample->mass > 0) return std::nullopt;
+  return sample->x;
+}
+
 }  // namespace
 
 BranchSearch::BranchSearch(const Map& map, int dimension, double epsilon)
@@ -31,21 +37,17 @@ BranchSearch::BranchSearch(const Map& map, int dimension, double epsilon)
     return (1 - std::cos(std::numbers::pi * t)) / 2;
   };
   const std::size_t rows = dimension == 1 ? 1 : per_side_;
+  std::vector<Uniforms> u;
   for (std::size_t j = 0; j < rows; ++j) {
     for (std::size_t i = 0; i < per_side_; ++i) {
-      Node node;
-      node.u = {place(i), dimension == 1 ? 0 : place(j), 0};
-      node.x = at(node.u);
-      grid_.push_back(node);
+      u.push_back({place(i), dimension == 1 ? 0 : place(j), 0});
     }
   }
+  const std::vector<Record> samples = ask(map_, u);
+  for (std::size_t i = 0; i < u.size(); ++i) grid_.push_back({u[i], point_of(samples[i])});
 }
 
-std::optional<Vec3> BranchSearch::at(const Uniforms& u) const {
-  const auto sample = map_(u);
-  if (!sample || sample->mass > 0) return std::nullopt;
-  return sample->x;
-}
+std::optional<Vec3> BranchSearch::at(const Uniforms& u) const { return point_of(map_(u)); }
 
 /// The nearest nodes, and those that are nearer than all around them.
 std::vector<Uniforms> BranchSearch::starts(const Vec3& x) const {

@@ -1,7 +1,11 @@
 #include "pairs/cell_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 namespace plumbline::verify {
 
@@ -26,19 +30,73 @@ Row legendre(double x) {
 const std::array<Row, kNodes> kAtPlaces = {legendre(kPlaces[0]), legendre(kPlaces[1]),
                                            legendre(kPlaces[2]), legendre(kPlaces[3])};
 
+// The outermost nodes leave 0.069 of the width beyond them; a jump there would never be seen.
+constexpr double kUnseen = 0.0694;
+constexpr double kInside = 1 - 1e-6;  // not on the line along which two cells meet
+
+/// A point of the border: of each coordinate −1, 0 or 1, where it lies.
+struct Side {
+  int s, t;
+};
+
+/// Corners and middles of the sides.
+std::vector<Side> sides_of(int dimension) {
+  std::vector<Side> sides;
+  for (const int s : {-1, 0, 1}) {
+    for (const int t : {-1, 0, 1}) {
+      if ((s != 0 || t != 0) && (dimension == 2 || t == 0)) sides.push_back({s, t});
+    }
+  }
+  return sides;
+}
+
+const std::array<std::vector<Side>, 2> kSides = {sides_of(1), sides_of(2)};
+
+const std::vector<Side>& border(int dimension) {
+  return kSides[static_cast<std::size_t>(dimension - 1)];
+}
+
+Point2 center_of(const Box& box) {
+  return {(box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2};
+}
+
+Point2 scale_of(const Box& box) {
+  return {(box.high[0] - box.low[0]) / 2, (box.high[1] - box.low[1]) / 2};
+}
+
+Point2 border_point(const Point2& center, const Point2& scale, const Side& side) {
+  return {center[0] + kInside * side.s * scale[0], center[1] + kInside * side.t * scale[1]};
+}
+
 }  // namespace
 
-CellFit::CellFit(const std::function<double(const Point2&)>& f, const Box& box, int dimension)
-    : center_{(box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2},
-      scale_{(box.high[0] - box.low[0]) / 2, (box.high[1] - box.low[1]) / 2},
-      area_(box.area()) {
+void CellFit::add_points(const Box& box, int dimension, std::vector<Point2>& points) {
+  const Point2 center = center_of(box), scale = scale_of(box);
+  for (const double x : kPlaces) {
+    if (dimension == 1) {
+      points.push_back({center[0] + scale[0] * x, center[1]});
+      continue;
+    }
+    for (const double y : kPlaces) {
+      points.push_back({center[0] + scale[0] * x, center[1] + scale[1] * y});
+    }
+  }
+  for (const Side& side : border(dimension)) points.push_back(border_point(center, scale, side));
+}
+
+CellFit::CellFit(const Box& box, int dimension, std::span<const double> values)
+    : center_(center_of(box)), scale_(scale_of(box)), area_(box.area()) {
+  const std::size_t nodes = dimension == 1 ? kNodes : kNodes * kNodes;
+  fit(dimension, values.first(nodes));
+  probe_border(dimension, values.subspan(nodes));
+}
+
+void CellFit::fit(int dimension, std::span<const double> values) {
   const std::size_t across = dimension == 1 ? 1 : kNodes;
   for (std::size_t k = 0; k < kNodes; ++k) {
-    const double x = center_[0] + scale_[0] * kPlaces[k];
     Row along_y{};
     for (std::size_t l = 0; l < across; ++l) {
-      const double y = dimension == 1 ? center_[1] : center_[1] + scale_[1] * kPlaces[l];
-      double value = f({x, y});
+      double value = values[k * across + l];
       if (!std::isfinite(value)) {
         finite_ = false;
         value = 0;
@@ -64,29 +122,22 @@ CellFit::CellFit(const std::function<double(const Point2&)>& f, const Box& box, 
   }
   tail_ = std::sqrt(of_x + of_y);
   rough_ = of_x >= of_y ? 0 : 1;
-  probe_border(f, dimension);
 }
 
-void CellFit::probe_border(const std::function<double(const Point2&)>& f, int dimension) {
-  // The outermost nodes leave 0.069 of the width beyond them; a jump there would never be seen.
-  constexpr double kUnseen = 0.0694;
-  constexpr double kInside = 1 - 1e-6;  // not on the line along which two cells meet
+void CellFit::probe_border(int dimension, std::span<const double> values) {
   std::array<double, 2> squares{};
   double largest = 0;
-  for (const int s : {-1, 0, 1}) {
-    for (const int t : {-1, 0, 1}) {
-      if ((s == 0 && t == 0) || (dimension == 1 && t != 0)) continue;
-      const Point2 p{center_[0] + kInside * s * scale_[0], center_[1] + kInside * t * scale_[1]};
-      const double value = f(p);
-      if (!std::isfinite(value)) {
-        finite_ = false;
-        continue;
-      }
-      const double off = (value - at(p)) * (value - at(p));
-      largest = std::max(largest, off);
-      if (s != 0) squares[0] += off;
-      if (t != 0) squares[1] += off;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Side& side = border(dimension)[i];
+    if (!std::isfinite(values[i])) {
+      finite_ = false;
+      continue;
     }
+    const double apart = values[i] - at(border_point(center_, scale_, side));
+    const double off = apart * apart;
+    largest = std::max(largest, off);
+    if (side.s != 0) squares[0] += off;
+    if (side.t != 0) squares[1] += off;
   }
   const double at_border = std::sqrt(kUnseen * largest);
   if (at_border <= tail_) return;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
-#include <functional>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 #include <plumbline/verify/detail/domain.h>
 
@@ -17,11 +19,17 @@ struct Box {
 /// its values at Gauss's nodes. Its integral is Gauss's rule, exact up to the seventh degree.
 class CellFit {
  public:
-  static constexpr std::size_t kNodes = 4;                 // per dimension
-  static constexpr int kEvaluations[2] = {4 + 2, 16 + 8};  // in one dimension and in two
+  static constexpr std::size_t kNodes = 4;  // per dimension
+
+  /// Points of one box that a fit takes: Gauss's nodes, then probes on its border.
+  static constexpr std::size_t points(int dimension) { return dimension == 1 ? 4 + 2 : 16 + 8; }
+
+  /// Adds the points of a box.
+  static void add_points(const Box& box, int dimension, std::vector<Point2>& points);
 
   /// @param dimension  1: the function depends on the first coordinate alone
-  CellFit(const std::function<double(const Point2&)>& f, const Box& box, int dimension);
+  /// @param values     of the function at the points of the box
+  CellFit(const Box& box, int dimension, std::span<const double> values);
 
   double integral() const { return area_ * coefficients_[0][0]; }
   double at(const Point2& p) const;
@@ -37,7 +45,8 @@ class CellFit {
   bool finite() const { return finite_; }
 
  private:
-  void probe_border(const std::function<double(const Point2&)>& f, int dimension);
+  void fit(int dimension, std::span<const double> values);
+  void probe_border(int dimension, std::span<const double> values);
 
   Point2 center_, scale_;
   double area_ = 0, tail_ = 0;

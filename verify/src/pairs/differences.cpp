@@ -3,7 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pairs/batches.h"
 
 namespace plumbline::verify {
 
@@ -26,67 +32,89 @@ double largest_coordinate(const Vec3& x) {
   return std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
 }
 
-/// Central difference; steps are powers of two and u a multiple of 2^-20, so that u ± h is exact in
-/// float too.
-std::optional<Vec3> difference(const Map& map, Uniforms u, std::size_t d, double h) {
-  const double center = u[d];
-  u[d] = center + h;
-  const auto above = map(u);
-  u[d] = center - h;
-  const auto below = map(u);
-  if (!above || !below || above->mass > 0 || below->mass > 0) return std::nullopt;
-  return combine(0.5 / h, above->x, -0.5 / h, below->x);
-}
-
-/// What each coordinate of the map is off by around u: its steps, if the code rounds something on
-/// the way that the result magnifies (a sine from 1 − cos² in float), else `unit`. Second
-/// differences at steps so small that a smooth map is straight over them.
-double rounding_around(const Map& map, const Uniforms& u, std::size_t d, double unit) {
-  const auto here = map(u);
-  for (double h = 0x1p-20; here && h <= 0x1p-17 && h < u[d] && u[d] + h < 1; h *= 2) {
-    Uniforms above = u, below = u;
-    above[d] += h;
-    below[d] -= h;
-    const auto a = map(above), b = map(below);
-    if (!a || !b) break;
-    const Vec3 bend =
-        combine(0.5, combine(1, a->x, -1, here->x), 0.5, combine(1, b->x, -1, here->x));
-    unit = std::max(unit, norm(bend));
+/// The map around u along one number, at places that are known before any of them is asked for.
+class Along {
+ public:
+  /// @param first_step  the longest step; a short one sees a seam only where it is very near
+  Along(const Uniforms& u, std::size_t d, double epsilon, double first_step) : u_(u), d_(d) {
+    // Steps are powers of two and u a multiple of 2^-20, so that u ± h is exact in float too.
+    longest_ = std::exp2(std::floor(std::log2(std::min({first_step, u[d] / 2, (1 - u[d]) / 2}))));
+    if (!rounds_to_float(epsilon)) return;
+    for (double h = 0x1p-20; h <= 0x1p-17 && h < u[d] && u[d] + h < 1; h *= 2) ++roundings_;
   }
-  return unit;
-}
 
-/// Ridders: differences at halved steps, extrapolated; the best is where neither the extrapolation
-/// nor rounding (`unit`: what each coordinate of the map is off by) leaves a larger error.
-///
-/// @param first_step  the longest step; a short one sees a seam only where it is very near
-std::optional<Derivative> derivative(const Map& map, const Uniforms& u, std::size_t d, double unit,
-                                     double first_step) {
-  constexpr int kSteps = 8;
-  if (unit > 0x1p-40) unit = rounding_around(map, u, d, unit);
-  double h = std::exp2(std::floor(std::log2(std::min({first_step, u[d] / 2, (1 - u[d]) / 2}))));
-  std::array<std::array<Vec3, kSteps>, kSteps> table;
-  Derivative best;
-  best.error = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < kSteps; ++i, h /= 2) {
-    const auto next = difference(map, u, d, h);
-    if (!next) {
-      if (i == 0) return std::nullopt;
-      break;
+  static bool rounds_to_float(double epsilon) { return epsilon > 0x1p-40; }
+
+  void add_points(std::vector<Uniforms>& points) const {
+    double h = longest_;
+    for (std::size_t i = 0; i < kSteps; ++i, h /= 2) add_pair(h, points);
+    h = 0x1p-20;
+    for (std::size_t i = 0; i < roundings_; ++i, h *= 2) add_pair(h, points);
+  }
+
+  std::size_t points() const { return 2 * (kSteps + roundings_); }
+
+  /// Ridders: differences at halved steps, extrapolated; the best is where neither the
+  /// extrapolation nor rounding (`unit`: what each coordinate of the map is off by) leaves a larger
+  /// error.
+  ///
+  /// @param at    samples at the points
+  /// @param here  at u
+  std::optional<Derivative> derivative(std::span<const Record> at, const Vec3& here,
+                                       double unit) const {
+    if (unit > 0x1p-40) unit = rounding(at.subspan(2 * kSteps), here, unit);
+    std::array<std::array<Vec3, kSteps>, kSteps> table;
+    Derivative best;
+    best.error = std::numeric_limits<double>::infinity();
+    double h = longest_;
+    for (std::size_t i = 0; i < kSteps; ++i, h /= 2) {
+      const Record &above = at[2 * i], &below = at[2 * i + 1];
+      if (!above || !below || above->mass > 0 || below->mass > 0) {
+        if (i == 0) return std::nullopt;
+        break;
+      }
+      table[0][i] = combine(0.5 / h, above->x, -0.5 / h, below->x);
+      double factor = 4;
+      for (std::size_t j = 1; j <= i; ++j, factor *= 4) {
+        table[j][i] =
+            combine(factor / (factor - 1), table[j - 1][i], -1 / (factor - 1), table[j - 1][i - 1]);
+        const double error =
+            std::max({norm(combine(1, table[j][i], -1, table[j - 1][i])),
+                      norm(combine(1, table[j][i], -1, table[j - 1][i - 1])), 4 * unit / h});
+        if (error <= best.error) best = {table[j][i], error};
+      }
     }
-    table[0][i] = *next;
-    double factor = 4;
-    for (std::size_t j = 1; j <= i; ++j, factor *= 4) {
-      table[j][i] =
-          combine(factor / (factor - 1), table[j - 1][i], -1 / (factor - 1), table[j - 1][i - 1]);
-      const double error =
-          std::max({norm(combine(1, table[j][i], -1, table[j - 1][i])),
-                    norm(combine(1, table[j][i], -1, table[j - 1][i - 1])), 4 * unit / h});
-      if (error <= best.error) best = {table[j][i], error};
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t kSteps = 8;
+
+  void add_pair(double h, std::vector<Uniforms>& points) const {
+    for (const double step : {h, -h}) {
+      Uniforms& beside = points.emplace_back(u_);
+      beside[d_] += step;
     }
   }
-  return best;
-}
+
+  /// What each coordinate of the map is off by around u: its steps, if the code rounds something on
+  /// the way that the result magnifies (a sine from 1 − cos² in float), else `unit`. Second
+  /// differences at steps so small that a smooth map is straight over them.
+  double rounding(std::span<const Record> at, const Vec3& here, double unit) const {
+    for (std::size_t i = 0; i < roundings_; ++i) {
+      const Record &a = at[2 * i], &b = at[2 * i + 1];
+      if (!a || !b) break;
+      const Vec3 bend = combine(0.5, combine(1, a->x, -1, here), 0.5, combine(1, b->x, -1, here));
+      unit = std::max(unit, norm(bend));
+    }
+    return unit;
+  }
+
+  Uniforms u_;
+  std::size_t d_;
+  double longest_;
+  std::size_t roundings_ = 0;  // steps that show how the map rounds
+};
 
 /// Differences between u and points on one side of it at h, h/2 and h/4, extrapolated twice.
 std::optional<Derivative> one_sided_at(const Map& map, const Uniforms& u, const Vec3& here,
@@ -157,17 +185,72 @@ std::vector<DensityAt> densities_on_one_side(const Map& map, const Uniforms& u, 
   return densities;
 }
 
+namespace {
+
+/// All that is asked for around one u.
+struct Around {
+  std::vector<Along> numbers;
+
+  Around(const Uniforms& u, int dimension, double epsilon, double first_step) {
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+      numbers.emplace_back(u, d, epsilon, first_step);
+    }
+  }
+
+  std::size_t points() const {
+    std::size_t sum = 1;
+    for (const Along& along : numbers) sum += along.points();
+    return sum;
+  }
+
+  /// @param at  samples at u, then at the points along each number
+  std::optional<DensityAt> density(std::span<const Record> at, double epsilon) const {
+    const Record& here = at[0];
+    if (!here || here->mass > 0) return std::nullopt;
+    const double unit = epsilon * largest_coordinate(here->x);
+    std::array<std::optional<Derivative>, 2> by;
+    std::size_t first = 1;
+    for (std::size_t d = 0; d < numbers.size(); ++d) {
+      by[d] = numbers[d].derivative(at.subspan(first, numbers[d].points()), here->x, unit);
+      if (!by[d]) return std::nullopt;
+      first += numbers[d].points();
+    }
+    return density_from(*by[0], by[1]);
+  }
+};
+
+}  // namespace
+
+std::vector<std::optional<DensityAt>> densities_by_differences(const Map& map,
+                                                               std::span<const Uniforms> u,
+                                                               int dimension, double epsilon,
+                                                               double first_step) {
+  std::vector<std::optional<DensityAt>> densities;
+  std::vector<Around> around;
+  std::vector<Uniforms> points;
+  const auto flush = [&] {
+    const std::vector<Record> samples = ask(map, points);
+    std::size_t first = 0;
+    for (const Around& a : around) {
+      densities.push_back(a.density(std::span(samples).subspan(first, a.points()), epsilon));
+      first += a.points();
+    }
+    around.clear();
+    points.clear();
+  };
+  for (const Uniforms& center : u) {
+    const Around& a = around.emplace_back(center, dimension, epsilon, first_step);
+    points.push_back(center);
+    for (const Along& along : a.numbers) along.add_points(points);
+    if (points.size() >= map.batch()) flush();
+  }
+  flush();
+  return densities;
+}
+
 std::optional<DensityAt> density_by_differences(const Map& map, const Uniforms& u, int dimension,
                                                 double epsilon, double first_step) {
-  const auto sample = map(u);
-  if (!sample || sample->mass > 0) return std::nullopt;
-  const double unit = epsilon * largest_coordinate(sample->x);
-  const auto du = derivative(map, u, 0, unit, first_step);
-  if (!du) return std::nullopt;
-  if (dimension == 1) return density_from(*du, std::nullopt);
-  const auto dv = derivative(map, u, 1, unit, first_step);
-  if (!dv) return std::nullopt;
-  return density_from(*du, dv);
+  return densities_by_differences(map, {&u, 1}, dimension, epsilon, first_step).front();
 }
 
 }  // namespace plumbline::verify

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <plumbline/verify/pair.h>
@@ -30,6 +30,12 @@ inline double tolerance_of_differences(double epsilon) { return epsilon > 0x1p-4
 /// @source Ridders 1982 (Adv. Eng. Software 4:2)
 std::optional<DensityAt> density_by_differences(const Map& map, const Uniforms& u, int dimension,
                                                 double epsilon, double first_step = 0x1p-4);
+
+/// The same at many u, all of whose differences are asked for at once.
+std::vector<std::optional<DensityAt>> densities_by_differences(const Map& map,
+                                                               std::span<const Uniforms> u,
+                                                               int dimension, double epsilon,
+                                                               double first_step = 0x1p-4);
 
 /// The same from one side of u in each number, away from a seam on the other: of every choice of
 /// sides that gives one. Each derivative is taken at the step that leaves it the smallest error.

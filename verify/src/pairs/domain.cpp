@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -37,6 +38,62 @@ class IntervalChart final : public Chart {
 
  private:
   double low_, high_;
+};
+
+// Ends at infinity are approached, never reached.
+constexpr double kLastBelowOne = 1 - 0x1p-53;
+
+/// x = scale·t/(1 − t): half of the square lies below the scale.
+class HalfLineChart final : public Chart {
+ public:
+  explicit HalfLineChart(double scale) : scale_(scale) {}
+
+  Vec3 from_square(const Point2& p) const override {
+    const double t = std::min(p[0], kLastBelowOne);
+    return {scale_ * t / (1 - t), 0, 0};
+  }
+  Point2 to_square(const Vec3& x) const override {
+    return {std::clamp(x[0] / (scale_ + x[0]), 0.0, kLastBelowOne), 0.5};
+  }
+  double element(const Point2& p) const override {
+    const double rest = 1 - std::min(p[0], kLastBelowOne);
+    return scale_ / (rest * rest);
+  }
+  /// Far out rounding is in proportion to x.
+  Vec3 near(const Vec3& x, double distance, double angle) const override {
+    return {x[0] + std::copysign(distance * (scale_ + std::abs(x[0])), std::cos(angle)), 0, 0};
+  }
+  double distance(const Vec3& x) const override { return std::max(0.0, -x[0] / scale_); }
+
+ private:
+  double scale_;
+};
+
+/// x = center + scale·tan(π(t − ½)): half of the square lies within the scale.
+class LineChart final : public Chart {
+ public:
+  LineChart(double center, double scale) : center_(center), scale_(scale) {}
+
+  Vec3 from_square(const Point2& p) const override {
+    return {center_ + scale_ * std::tan(pi * (within(p[0]) - 0.5)), 0, 0};
+  }
+  Point2 to_square(const Vec3& x) const override {
+    return {within(0.5 + std::atan((x[0] - center_) / scale_) / pi), 0.5};
+  }
+  double element(const Point2& p) const override {
+    const double cosine = std::cos(pi * (within(p[0]) - 0.5));
+    return pi * scale_ / (cosine * cosine);
+  }
+  Vec3 near(const Vec3& x, double distance, double angle) const override {
+    const double size = scale_ + std::abs(x[0]);
+    return {x[0] + std::copysign(distance * size, std::cos(angle)), 0, 0};
+  }
+  double distance(const Vec3&) const override { return 0; }
+
+ private:
+  static double within(double t) { return std::clamp(t, 0x1p-53, kLastBelowOne); }
+
+  double center_, scale_;
 };
 
 class SquareChart final : public Chart {
@@ -144,6 +201,21 @@ Domain::Domain(std::string name, int dimension, std::shared_ptr<const Chart> cha
 Domain Domain::interval(double low, double high) {
   if (!(low < high)) throw std::invalid_argument("Domain::interval: needs low < high");
   return {"interval", 1, std::make_shared<IntervalChart>(low, high)};
+}
+
+Domain Domain::half_line(double scale) {
+  if (!(scale > 0) || std::isinf(scale)) {
+    throw std::invalid_argument("Domain::half_line: the scale is positive and finite");
+  }
+  return {"half-line", 1, std::make_shared<HalfLineChart>(scale)};
+}
+
+Domain Domain::line(double center, double scale) {
+  if (!std::isfinite(center) || !(scale > 0) || std::isinf(scale)) {
+    throw std::invalid_argument(
+        "Domain::line: the center is finite, the scale positive and finite");
+  }
+  return {"line", 1, std::make_shared<LineChart>(center, scale)};
 }
 
 Domain Domain::discrete(std::size_t size) {

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <plumbline/verify/detail/stopwatch.h>
-#include <optional>
 
 #include "diagnosis/diagnosis.h"
+#include "pairs/batches.h"
 #include "pairs/branches.h"
 #include "pairs/differences.h"
 #include "streams.h"
@@ -90,22 +94,39 @@ class Jacobian {
 
  private:
   void visit(const Map& map, const Many<double(Vec3)>& pdf, int points) {
-    for (int i = 0; i < points; ++i) {
-      Uniforms u{};
-      for (int d = 0; d < pair_.numbers; ++d)
+    std::vector<Uniforms> tried(static_cast<std::size_t>(points));
+    for (Uniforms& u : tried) {
+      for (int d = 0; d < pair_.numbers; ++d) {
         u[static_cast<std::size_t>(d)] = draw_uniform(random_);
-      const auto sample = map(u);
-      if (!sample || sample->mass > 0) continue;
-      const auto density = pair_.preimages
-                               ? sum_over(pair_.preimages(sample->x), map)
-                               : density_by_differences(map, u, dimension(), pair_.epsilon);
+      }
+    }
+    std::vector<Uniforms> from;
+    std::vector<Vec3> to;
+    const std::vector<Record> samples = ask(map, tried);
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      if (!samples[i] || samples[i]->mass > 0) continue;
+      from.push_back(tried[i]);
+      to.push_back(samples[i]->x);
+    }
+    const auto densities = pair_.preimages
+                               ? sums_at(to, map)
+                               : densities_by_differences(map, from, dimension(), pair_.epsilon);
+    const std::vector<double> pdfs = ask(pdf, to);
+    for (std::size_t i = 0; i < from.size(); ++i) {
       ++tried_;
-      if (!density || !(density->relative_error <= tolerance_ / 4)) {
+      if (!densities[i] || !(densities[i]->relative_error <= tolerance_ / 4)) {
         ++folds_;
         continue;
       }
-      count(map, u, sample->x, pdf(sample->x), *density);
+      count(map, from[i], to[i], pdfs[i], *densities[i]);
     }
+  }
+
+  std::vector<std::optional<DensityAt>> sums_at(const std::vector<Vec3>& points,
+                                                const Map& map) const {
+    std::vector<std::optional<DensityAt>> sums;
+    for (const Vec3& x : points) sums.push_back(sum_over(pair_.preimages(x), map));
+    return sums;
   }
 
   int dimension() const { return pair_.domain.dimension(); }
@@ -113,8 +134,7 @@ class Jacobian {
   /// Density at a point that several random numbers lead to.
   std::optional<DensityAt> sum_over(const std::vector<Uniforms>& preimages, const Map& map) const {
     DensityAt sum;
-    for (const Uniforms& u : preimages) {
-      const auto d = density_by_differences(map, u, dimension(), pair_.epsilon);
+    for (const auto& d : densities_by_differences(map, preimages, dimension(), pair_.epsilon)) {
       if (!d) return std::nullopt;
       sum.value += d->value;
       sum.relative_error = std::max(sum.relative_error, d->relative_error);

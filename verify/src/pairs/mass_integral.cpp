@@ -1,18 +1,23 @@
 #include "pairs/mass_integral.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <queue>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "bernstein.h"
+#include "pairs/batches.h"
+#include "pairs/tree_cell.h"
 #include "streams.h"
 
 namespace plumbline::verify {
 namespace {
 
-// What a cell's uniform nodes are at least, and as if while cells are made.
-constexpr double kNodesPerCell = 1;
 constexpr int kMaxRounds = 6;
 constexpr double kWorthwhile = 0.9;
 constexpr int kMostWithoutGain = 2;
@@ -25,22 +30,10 @@ constexpr double kPassLevel = 1e-3;
 constexpr double kSurprise = 0.02;
 constexpr std::size_t kMostSurprises = 20'000;
 
-struct PilotPoint {
-  Point2 p{};
-  double density = 0, value = 0;
-};
-
-/// A cell, halved or not.
-struct TreeCell {
-  Box box;
-  std::size_t bin;
-  CellFit fit;
-  std::size_t first = 0, last = 0;  // of the pilot points inside
-  double key = 0;                   // standard deviation that it is expected to add
-  double measured = 0;              // the same, squared, as nodes have shown it
-  std::size_t halves = 0;           // index of the lower half, 0: a leaf
-  std::size_t cut = 0;              // dimension, and where
-  double at = 0;
+/// A random node, whose value is not known yet.
+struct NodeToAsk {
+  std::size_t cell;
+  Point2 p;
 };
 
 class Integrator {
@@ -57,16 +50,18 @@ class Integrator {
     for (const Cell& cell : cells) {
       if (cell.box.area() > 0) boxes_of_bin[cell.bin].push_back(cell.box);
     }
+    std::vector<CellPlan> plans;
     for (std::size_t bin = 0; bin < q_.bins; ++bin) {
       for (const Box& box : boxes_of_bin[bin]) {
         const std::size_t first = pilot_.size();
         for (const PilotPoint& s : of_bin[bin]) {
           if (contains(box, s.p)) pilot_.push_back(s);
         }
-        roots_of_bin_[bin].push_back(cells_.size());
-        add(box, bin, first, pilot_.size());
+        roots_of_bin_[bin].push_back(plans.size());
+        plans.push_back({box, bin, first, pilot_.size()});
       }
     }
+    add(plans);
   }
 
   MassIntegral run() {
@@ -86,13 +81,15 @@ class Integrator {
              round == 0 ? kHope : 1);
       result = correct();
       const double error = result.error(kPassLevel);
-      // Cells that no longer show what they are off by would cost more rounds than they are worth,
-      // as would a target that four times the nodes in each round do not reach.
+      // Where what is good enough is not reached, all that may be spent is. Beyond it, cells that
+      // no longer show what they are off by would cost more rounds than they are worth, as would a
+      // target that four times the nodes in each round do not reach.
       const int hopeful_rounds = std::min(2, kMaxRounds - 1 - round);
       const bool within_reach = std::ldexp(error, -hopeful_rounds) <= q_.target;
       without_gain = error < kWorthwhile * before ? 0 : without_gain + 1;
-      const bool worthwhile = error > q_.target && without_gain < kMostWithoutGain &&
-                              (within_reach || error > q_.good_enough);
+      const bool worthwhile =
+          error > q_.target &&
+          (error > q_.good_enough || (within_reach && without_gain < kMostWithoutGain));
       if (!worthwhile || !result.finite || evaluations_ >= q_.max_evaluations) break;
       before = error;
       learn();
@@ -111,85 +108,71 @@ class Integrator {
 
   std::size_t bin_at(const Point2& p) const { return q_.bin_at ? q_.bin_at(p) : 0; }
 
-  double value_at(const Point2& p) {
-    ++evaluations_;
-    const double value = q_.integrand(p);
-    if (std::isfinite(value)) return value;
-    finite_ = false;
-    return 0;
+  std::vector<double> values_at(const std::vector<Point2>& points) {
+    evaluations_ += points.size();
+    std::vector<double> values = ask(q_.integrand, points);
+    for (double& value : values) {
+      if (std::isfinite(value)) continue;
+      finite_ = false;
+      value = 0;
+    }
+    return values;
   }
 
-  double density_at(const Point2& p, double value) const {
-    if (!q_.draw_own) return 0;
-    const double density = q_.density ? q_.density(p) : value;
-    return std::isfinite(density) && density > 0 ? density : 0;
+  /// Of own samples.
+  ///
+  /// @param values  of the integrand
+  std::vector<double> densities_at(const std::vector<Point2>& points,
+                                   const std::vector<double>& values) const {
+    if (!q_.draw_own) return std::vector<double>(points.size(), 0.0);
+    std::vector<double> densities = q_.density ? ask(q_.density, points) : values;
+    for (double& d : densities) d = std::isfinite(d) && d > 0 ? d : 0;
+    return densities;
   }
 
   std::vector<PilotPoint> draw_pilot() {
     std::vector<PilotPoint> pilot;
     if (!q_.draw_own) return pilot;
-    for (const Point2& p : q_.draw_own(q_.own)) {
-      PilotPoint s{p, 0, value_at(p)};
-      s.density = density_at(p, s.value);
-      pilot.push_back(s);
+    const OwnSamples points = q_.draw_own(q_.own);
+    const std::vector<double> values = values_at(points), densities = densities_at(points, values);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      pilot.push_back({points[i], densities[i], values[i]});
     }
     return pilot;
   }
 
-  void add(const Box& box, std::size_t bin, std::size_t first, std::size_t last) {
-    TreeCell cell{box, bin, CellFit(q_.integrand, box, q_.dimension), first, last};
-    evaluations_ += static_cast<std::uint64_t>(CellFit::kEvaluations[q_.dimension - 1]);
-    finite_ = finite_ && cell.fit.finite();
-    choose_cut(cell);
-    cells_.push_back(cell);
-    enqueue(cells_.size() - 1);
+  void add(std::span<const CellPlan> plans) {
+    const std::size_t each = CellFit::points(q_.dimension);
+    std::vector<Point2> points;
+    points.reserve(plans.size() * each);
+    for (const CellPlan& plan : plans) CellFit::add_points(plan.box, q_.dimension, points);
+    const std::vector<double> values = ask(q_.integrand, points);
+    evaluations_ += points.size();
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      const CellPlan& plan = plans[i];
+      const CellFit fit(plan.box, q_.dimension, std::span(values).subspan(i * each, each));
+      TreeCell cell{plan.box, plan.bin, fit, plan.first, plan.last};
+      finite_ = finite_ && cell.fit.finite();
+      choose_cut(cell);
+      cells_.push_back(cell);
+      enqueue(cells_.size() - 1);
+    }
   }
 
-  double weight(double node_density, double own_density) const {
-    return 1 / (node_density + static_cast<double>(q_.spread) +
-                static_cast<double>(own_) * own_density);
-  }
-
-  /// What the cell is expected to add to the error, from the nodes of its fit and from the pilot
-  /// points in it, and how to halve it.
   void choose_cut(TreeCell& cell) const {
-    const double area = cell.box.area();
-    const double at_nodes = area * cell.fit.tail();
-    double at_points = 0;
-    Point2 low = cell.box.high, high = cell.box.low;
-    for (std::size_t i = cell.first; i < cell.last; ++i) {
-      const PilotPoint& s = pilot_[i];
-      const double off = (s.value - cell.fit.at(s.p)) * weight(kNodesPerCell / area, s.density);
-      at_points += off * off;
-      for (std::size_t d = 0; d < 2; ++d) {
-        low[d] = std::min(low[d], s.p[d]);
-        high[d] = std::max(high[d], s.p[d]);
-      }
-    }
-    cell.key = std::max(at_nodes, std::sqrt(at_points));
-    cell.cut = cell.fit.rough_dimension();
-    if (std::sqrt(at_points) > at_nodes) {
-      // What the nodes do not see lies where the points are: halve where they crowd.
-      const auto crowding = [&](std::size_t d) {
-        return (high[d] - low[d]) / (cell.box.high[d] - cell.box.low[d]);
-      };
-      if (std::abs(crowding(0) - crowding(1)) > 0.1) cell.cut = crowding(0) < crowding(1) ? 0 : 1;
-    }
-    if (q_.dimension == 1) cell.cut = 0;
-    cell.at = (cell.box.low[cell.cut] + cell.box.high[cell.cut]) / 2;
-    const double size = cell.box.high[cell.cut] - cell.box.low[cell.cut];
-    const double least = 0x1p-48 * std::max(std::abs(cell.at), 0x1p-200);
-    if (!(size > least)) cell.at = cell.box.low[cell.cut];  // too narrow to halve
+    const std::span<const PilotPoint> inside(pilot_);
+    cell.choose_cut(inside.subspan(cell.first, cell.last - cell.first), q_.dimension,
+                    nodes_in_round());
   }
 
-  static bool can_be_halved(const TreeCell& cell) {
-    return cell.at > cell.box.low[cell.cut] && cell.at < cell.box.high[cell.cut];
+  NodesInRound nodes_in_round() const {
+    return {static_cast<double>(q_.spread), static_cast<double>(own_)};
   }
 
   void enqueue(std::size_t index) {
     const TreeCell& cell = cells_[index];
     sum_of_squares_ += cell.key * cell.key;
-    if (can_be_halved(cell) && cell.key > 0) queue_.push({cell.key, index});
+    if (cell.can_be_halved() && cell.key > 0) queue_.push({cell.key, index});
   }
 
   void refine(std::uint64_t until, double hope) {
@@ -220,15 +203,15 @@ class Integrator {
     });
     const auto border = static_cast<std::size_t>(middle - pilot_.begin());
     cells_[index].halves = cells_.size();
-    add(low, cell.bin, cell.first, border);
-    add(high, cell.bin, border, cell.last);
+    add(std::array{CellPlan{low, cell.bin, cell.first, border},
+                   CellPlan{high, cell.bin, border, cell.last}});
   }
 
   /// The leaf that holds a point; none where rounding put it beside all.
-  TreeCell* leaf_at(const Point2& p) {
+  const TreeCell* leaf_at(const Point2& p) const {
     for (const std::size_t root : roots_of_bin_[bin_at(p)]) {
       if (!contains(cells_[root].box, p)) continue;
-      TreeCell* cell = &cells_[root];
+      const TreeCell* cell = &cells_[root];
       while (cell->halves != 0) cell = &cells_[cell->halves + (p[cell->cut] < cell->at ? 0 : 1)];
       return cell;
     }
@@ -253,11 +236,12 @@ class Integrator {
     nodes_to_share_ = std::max(static_cast<double>(nodes_) / 2, cells);
     nodes_everywhere_ =
         std::max(kNodesPerCell, std::floor(static_cast<double>(nodes_) / 2 / cells));
-    for (TreeCell& cell : cells_) {
-      if (cell.halves == 0) add_fit_and_nodes(cell);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (cells_[i].halves == 0) add_fit_and_nodes(i);
     }
     add_spread_nodes();
     add_own_nodes();
+    add_terms();
     for (std::size_t b = 0; b < q_.bins; ++b) {
       result_.total += result_.value[b];
       result_.variance_of_total += result_.variance[b];
@@ -281,7 +265,7 @@ class Integrator {
 
   void add_term(TreeCell& cell, const Point2& p, double value, double own_density) {
     const double of_cell = nodes_of(cell) / cell.box.area();
-    const double term = (value - cell.fit.at(p)) * weight(of_cell, own_density);
+    const double term = (value - cell.fit.at(p)) * nodes_in_round().weight(of_cell, own_density);
     result_.value[cell.bin] += term;
     result_.variance[cell.bin] += term * term;
     const double others = of_cell + static_cast<double>(q_.spread);
@@ -294,7 +278,8 @@ class Integrator {
     }
   }
 
-  void add_fit_and_nodes(TreeCell& cell) {
+  void add_fit_and_nodes(std::size_t index) {
+    const TreeCell& cell = cells_[index];
     result_.value[cell.bin] += cell.fit.integral();
     const auto count = static_cast<int>(nodes_of(cell));
     for (int i = 0; i < count; ++i) {
@@ -302,8 +287,29 @@ class Integrator {
       for (std::size_t d = 0; d < 2; ++d) {
         p[d] = cell.box.low[d] + random_.uniform() * (cell.box.high[d] - cell.box.low[d]);
       }
-      const double value = value_at(p);
-      add_term(cell, p, value, density_at(p, value));
+      add_node(index, p);
+    }
+  }
+
+  /// A node whose term enters with others that are asked for at once.
+  void add_node(std::size_t cell, const Point2& p) {
+    nodes_to_ask_.push_back({cell, p});
+    if (nodes_to_ask_.size() >= q_.integrand.batch()) add_terms();
+  }
+
+  void add_terms() {
+    std::vector<Point2> points(nodes_to_ask_.size());
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = nodes_to_ask_[i].p;
+    const std::vector<double> values = values_at(points), densities = densities_at(points, values);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      add_term(cells_[nodes_to_ask_[i].cell], points[i], values[i], densities[i]);
+    }
+    nodes_to_ask_.clear();
+  }
+
+  void add_node_of_leaf(const Point2& p) {
+    if (const TreeCell* cell = leaf_at(p)) {
+      add_node(static_cast<std::size_t>(cell - cells_.data()), p);
     }
   }
 
@@ -318,21 +324,13 @@ class Integrator {
       const Point2 p{
           (static_cast<double>(column) + random_.uniform()) / static_cast<double>(columns),
           (static_cast<double>(row) + random_.uniform()) / static_cast<double>(rows)};
-      TreeCell* cell = leaf_at(p);
-      if (cell == nullptr) continue;
-      const double value = value_at(p);
-      add_term(*cell, p, value, density_at(p, value));
+      add_node_of_leaf(p);
     }
   }
 
   void add_own_nodes() {
     if (!q_.draw_own) return;
-    for (const Point2& p : q_.draw_own(own_)) {
-      TreeCell* cell = leaf_at(p);
-      if (cell == nullptr) continue;
-      const double value = value_at(p);
-      add_term(*cell, p, value, density_at(p, value));
-    }
+    for (const Point2& p : q_.draw_own(own_)) add_node_of_leaf(p);
   }
 
   /// What the nodes have shown of a cell replaces what was expected of it. Few nodes may show less
@@ -377,6 +375,7 @@ class Integrator {
   std::vector<PilotPoint> pilot_;
   std::vector<std::pair<std::size_t, PilotPoint>> surprises_;  // with their cells
   std::vector<TreeCell> cells_;
+  std::vector<NodeToAsk> nodes_to_ask_;
   std::vector<std::vector<std::size_t>> roots_of_bin_;
   std::priority_queue<std::pair<double, std::size_t>> queue_;
   double sum_of_squares_ = 0, keys_ = 0, nodes_to_share_ = 0, nodes_everywhere_ = 0;

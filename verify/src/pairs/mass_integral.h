@@ -3,7 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
+
+#include <plumbline/verify/detail/many.h>
 
 #include "pairs/cell_fit.h"
 
@@ -22,10 +25,10 @@ struct Cell {
 /// What is to be integrated, and what may be spent on it.
 struct MassQuestion {
   /// Per unit of the square. Finite; what is not, counts as 0 and is reported.
-  std::function<double(const Point2&)> integrand;
+  Many<double(Point2)> integrand;
 
   /// Density of the pair's own samples per unit of the square; empty: it is the integrand.
-  std::function<double(const Point2&)> density;
+  Many<double(Point2)> density;
 
   /// Draws that many samples more. Empty: there are none, only uniform nodes.
   std::function<OwnSamples(std::size_t count)> draw_own;
@@ -36,7 +39,8 @@ struct MassQuestion {
 
   int dimension = 2;       ///< 1: the integrand depends on the first coordinate alone
   double target = 2.5e-5;  ///< error of the total at 99.9 % after which nothing more is spent
-  double good_enough = 0;  ///< the same, where the target is out of reach
+  /// The same, where the target is out of reach: all that may be spent is, if need be.
+  double good_enough = std::numeric_limits<double>::infinity();
   std::uint64_t max_evaluations = 4'000'000;
   std::size_t own = 1 << 16;     ///< samples of the pair's own in each round
   std::size_t spread = 1 << 14;  ///< random nodes, evenly over the square, in each round

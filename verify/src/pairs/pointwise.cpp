@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <plumbline/verify/detail/stopwatch.h>
-#include <numbers>
 
 #include "diagnosis/diagnosis.h"
+#include "pairs/batches.h"
 #include "pairs/battery.h"
 #include "pairs/binned_pair.h"
 #include "rounding.h"
@@ -41,11 +48,21 @@ class Property {
     if (failed_++ == 0) outcome_.result.reason = reason();
   }
 
-  /// @param error  relative, only asked for where it is kept
-  template <class Error>
-  void ratio(const Vec3& x, double value, const Error& error) {
-    if (outcome_.ratios.points.size() < kEnoughRatios)
-      outcome_.ratios.points.push_back({x, value, error()});
+  /// @param channel  that it is one of, where it is of a colour
+  void ratio(const Vec3& x, double value, std::size_t channel = 0) {
+    if (outcome_.ratios.points.size() >= kEnoughRatios) return;
+    outcome_.ratios.points.push_back({x, value, 0});
+    channels_.push_back(channel);
+  }
+
+  const std::vector<RatioAt>& ratios() const { return outcome_.ratios.points; }
+  const std::vector<std::size_t>& channels() const { return channels_; }
+
+  /// @param errors  of the ratios, relative
+  void add_errors(const std::vector<double>& errors) {
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      outcome_.ratios.points[i].error += errors[i];
+    }
   }
 
   void deviation(double relative) {
@@ -68,6 +85,7 @@ class Property {
 
  private:
   PointwiseOutcome outcome_;
+  std::vector<std::size_t> channels_;  // of the ratios
   std::uint64_t tested_ = 0, failed_ = 0;
   double worst_ = 0;
 };
@@ -104,9 +122,11 @@ class Pointwise {
   }
 
   std::vector<PointwiseOutcome> run(int points) {
-    for (int i = 0; i < points; ++i) see(pair_.next(random_), nullptr);
+    const auto see_samples = [&](std::span<const Record> samples) { see(samples); };
+    draw_in_batches(pair_, random_, static_cast<std::uint64_t>(points), see_samples);
     if (pair_.sample && !pair_.draw) see_corners();
-    see_domain(points);
+    if (!discrete_) see_domain(static_cast<std::size_t>(points));
+    add_errors_of_ratios();
     std::vector<PointwiseOutcome> outcomes;
     for (Property* p : {&record_, &weight_, &support_, &finite_}) {
       if (p->tested()) outcomes.push_back(p->finish());
@@ -123,35 +143,46 @@ class Pointwise {
     const double last = 1 - pair_.epsilon;
     const std::vector<double> values = {0, pair_.epsilon, 1e-6, 0.25, 0.5, 0.75, 1 - 1e-6, last};
     const auto second = pair_.numbers >= 2 ? values : std::vector<double>{0};
+    std::vector<Uniforms> corners;
     for (const double a : values) {
-      for (const double b : second) {
-        const Uniforms u{a, b, 0.5};
-        see(pair_.sample(u), &u);
-      }
+      for (const double b : second) corners.push_back({a, b, 0.5});
     }
+    see(ask(pair_.sample, corners), corners);
   }
 
   /// Density and value anywhere in the domain, and close to where samples fall.
-  void see_domain(int points) {
-    if (discrete_) return;
-    for (int i = 0; i < points; ++i) {
-      const Vec3 x = pair_.domain.chart().from_square({random_.uniform(), random_.uniform()});
-      see_density(x);
-      const auto sample = pair_.next(random_);
-      if (!sample || sample->mass > 0 || !all_finite(sample->x)) continue;
+  void see_domain(std::size_t points) {
+    const Chart& chart = pair_.domain.chart();
+    std::vector<Vec3> anywhere(points);
+    for (Vec3& x : anywhere) x = chart.from_square({random_.uniform(), random_.uniform()});
+    see_densities(anywhere);
+    std::vector<Vec3> sampled, beside;
+    draw_in_batches(pair_, random_, points, [&](std::span<const Record> samples) {
+      for (const Record& sample : samples) {
+        if (has_density(sample)) sampled.push_back(sample->x);
+      }
+    });
+    for (const Vec3& x : sampled) {
       const double distance = std::exp2(-20 * random_.uniform());
-      const Vec3 y =
-          pair_.domain.chart().near(sample->x, distance, 2 * std::numbers::pi * random_.uniform());
-      if (pair_.domain.chart().distance(y) == 0) see_density(y);
+      const Vec3 y = chart.near(x, distance, 2 * std::numbers::pi * random_.uniform());
+      if (chart.distance(y) == 0) beside.push_back(y);
+    }
+    see_densities(beside);
+  }
+
+  void see_densities(const std::vector<Vec3>& points) {
+    const std::vector<double> densities = ask(pair_.pdf, points);
+    const std::vector<Channels> values =
+        pair_.value ? ask(pair_.value, points) : std::vector<Channels>(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      see_density(points[i], densities[i], values[i]);
     }
   }
 
-  void see_density(const Vec3& x) {
-    const double pdf = pair_.pdf(x);
+  void see_density(const Vec3& x, double pdf, const Channels& value) {
     finite_.hold(pdf >= 0 && std::isfinite(pdf),
                  [&] { return "pdf is " + number(pdf) + " at " + place(x); });
     if (!pair_.value) return;
-    const Channels value = pair_.value(x);
     finite_.hold(all_finite(value), [&] { return "f is not finite at " + place(x); });
     double largest = 0;
     for (std::size_t c = 0; c < value.count; ++c) largest = std::max(largest, std::abs(value[c]));
@@ -161,27 +192,57 @@ class Pointwise {
     });
   }
 
-  void see(const std::optional<SampleRecord>& sample, const Uniforms* corner) {
-    if (!sample) return;
-    const Vec3& x = sample->x;
-    const auto where = [&] {
-      return corner ? place(x) + ", " + of_u(*corner, pair_.numbers) : place(x);
-    };
-    finite_.hold(all_finite(x) && all_finite(sample->weight),
-                 [&] { return "sample or weight is not finite at " + where(); });
-    if (!all_finite(x)) return;
-    support_.hold(in_domain(x), [&] { return "sample outside the domain at " + where(); });
-    if (sample->mass > 0) {
-      see_atom(*sample);
-      return;
+  static bool has_density(const Record& sample) {
+    return sample && !(sample->mass > 0) && all_finite(sample->x);
+  }
+
+  bool has_weight(const SampleRecord& sample) const {
+    return sample.weight.count > 0 && pair_.value;
+  }
+
+  /// @param corners  the random numbers of each, where they are told
+  void see(std::span<const Record> samples, std::span<const Uniforms> corners = {}) {
+    std::vector<Vec3> points, weighed;
+    for (const Record& sample : samples) {
+      if (!has_density(sample)) continue;
+      points.push_back(sample->x);
+      if (has_weight(*sample)) weighed.push_back(sample->x);
     }
-    const double pdf = pair_.pdf(x);
+    const std::vector<double> densities = ask(pair_.pdf, points);
+    const std::vector<Channels> values =
+        weighed.empty() ? std::vector<Channels>() : ask(pair_.value, weighed);
+    std::size_t density = 0, value = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Record& sample = samples[i];
+      if (!sample) continue;
+      const auto where = [&] {
+        const std::string at = place(sample->x);
+        return corners.empty() ? at : at + ", " + of_u(corners[i], pair_.numbers);
+      };
+      see_point(*sample, where);
+      if (!has_density(sample)) continue;
+      const double pdf = densities[density++];
+      see_pdf(*sample, pdf, where);
+      if (has_weight(*sample)) see_weight(*sample, pdf, values[value++], where);
+    }
+  }
+
+  template <class Where>
+  void see_point(const SampleRecord& sample, const Where& where) {
+    finite_.hold(all_finite(sample.x) && all_finite(sample.weight),
+                 [&] { return "sample or weight is not finite at " + where(); });
+    if (!all_finite(sample.x)) return;
+    support_.hold(in_domain(sample.x), [&] { return "sample outside the domain at " + where(); });
+    if (sample.mass > 0) see_atom(sample);
+  }
+
+  template <class Where>
+  void see_pdf(const SampleRecord& sample, double pdf, const Where& where) {
     finite_.hold(pdf >= 0 && std::isfinite(pdf),
                  [&] { return "pdf is " + number(pdf) + " at " + where(); });
-    support_.hold(pdf > 0 || !(pdf == 0) || (!discrete_ && positive_near(pair_, x)),
+    support_.hold(pdf > 0 || !(pdf == 0) || (!discrete_ && positive_near(pair_, sample.x)),
                   [&] { return "pdf is 0 at a sample, " + where(); });
-    see_record(*sample, pdf, where);
-    see_weight(*sample, pdf, where);
+    see_record(sample, pdf, where);
   }
 
   bool in_domain(const Vec3& x) const {
@@ -209,15 +270,13 @@ class Pointwise {
       return "the record states pdf " + number(stated) + ", pdf() gives " + number(pdf) + " at " +
              where();
     });
-    record_.ratio(sample.x, stated / pdf,
-                  [&] { return rounding_of(sample.x, pair_.pdf) + kRounding * pair_.epsilon; });
+    record_.ratio(sample.x, stated / pdf);
     if (pdf > 0) record_.deviation(std::abs(stated / pdf - 1));
   }
 
   template <class Where>
-  void see_weight(const SampleRecord& sample, double pdf, const Where& where) {
-    if (sample.weight.count == 0 || !pair_.value) return;
-    const Channels value = pair_.value(sample.x);
+  void see_weight(const SampleRecord& sample, double pdf, const Channels& value,
+                  const Where& where) {
     double largest = 0;
     for (std::size_t c = 0; c < value.count; ++c) largest = std::max(largest, std::abs(value[c]));
     bool agrees = sample.weight.count == value.count;
@@ -228,10 +287,7 @@ class Pointwise {
                agree(product, value[c], sample.x,
                      [&](const Vec3& x) { return sample.weight[c] * pair_.pdf(x); });
       if (value[c] == largest && largest > 0) {
-        weight_.ratio(sample.x, product / value[c], [&] {
-          return rounding_of(sample.x, of_channel) + rounding_of(sample.x, pair_.pdf) +
-                 kRounding * pair_.epsilon;
-        });
+        weight_.ratio(sample.x, product / value[c], c);
         if (agrees) weight_.deviation(std::abs(product / value[c] - 1));
       }
     }
@@ -241,18 +297,50 @@ class Pointwise {
     });
   }
 
-  /// What rounding of the point that f is asked at may change, relative.
-  template <class F>
-  double rounding_of(const Vec3& x, const F& f) const {
-    if (discrete_) return 0;
-    const double here = f(x);
-    double spread = 0;
-    for (int k = 0; k < 4; ++k) {
-      const double angle = k * std::numbers::pi / 2;
-      const Vec3 beside = pair_.domain.chart().near(x, 8 * pair_.epsilon, angle);
-      spread = std::max(spread, std::abs(f(beside) / here - 1));
+  /// What rounding of the points that pdf() and value are asked at may change.
+  void add_errors_of_ratios() {
+    const auto density = [](double pdf, std::size_t) { return pdf; };
+    record_.add_errors(roundings(record_.ratios(), pair_.pdf, density));
+    weight_.add_errors(roundings(weight_.ratios(), pair_.pdf, density));
+    if (!weight_.ratios().empty()) {
+      weight_.add_errors(roundings(
+          weight_.ratios(), pair_.value,
+          [&](const Channels& value, std::size_t i) { return value[weight_.channels()[i]]; }));
     }
-    return std::isfinite(spread) ? spread : 1.0;
+    for (Property* p : {&record_, &weight_}) {
+      p->add_errors(std::vector<double>(p->ratios().size(), kRounding * pair_.epsilon));
+    }
+  }
+
+  /// Of each point, relative.
+  ///
+  /// @param number_of  the number that counts, of what f gives at a point, and of which point
+  template <class R, class NumberOf>
+  std::vector<double> roundings(const std::vector<RatioAt>& ratios, const Many<R(Vec3)>& f,
+                                const NumberOf& number_of) const {
+    std::vector<double> spreads(ratios.size(), 0.0);
+    if (discrete_) return spreads;
+    constexpr std::size_t kSides = 4;
+    std::vector<Vec3> points;
+    for (const RatioAt& r : ratios) {
+      points.push_back(r.x);
+      for (std::size_t k = 0; k < kSides; ++k) points.push_back(beside(r.x, k));
+    }
+    const std::vector<R> values = ask(f, points);
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      const auto at = [&](std::size_t k) { return number_of(values[(kSides + 1) * i + k], i); };
+      for (std::size_t k = 1; k <= kSides; ++k) {
+        spreads[i] = std::max(spreads[i], std::abs(at(k) / at(0) - 1));
+      }
+      if (!std::isfinite(spreads[i])) spreads[i] = 1;
+    }
+    return spreads;
+  }
+
+  /// A neighbour within rounding, in one of four directions.
+  Vec3 beside(const Vec3& x, std::size_t side) const {
+    const double angle = static_cast<double>(side) * std::numbers::pi / 2;
+    return pair_.domain.chart().near(x, 8 * pair_.epsilon, angle);
   }
 
   /// Equal up to rounding: of the numbers themselves, or of the point that f is asked at.
@@ -260,10 +348,8 @@ class Pointwise {
   bool agree(double a, double b, const Vec3& x, const F& f) const {
     return equal_up_to_rounding(a, b, pair_.epsilon, [&] {
       double spread = 0;
-      for (int k = 0; k < 4 && !discrete_; ++k) {
-        const double angle = k * std::numbers::pi / 2;
-        const Vec3 beside = pair_.domain.chart().near(x, 8 * pair_.epsilon, angle);
-        spread = std::max(spread, std::abs(f(beside) - f(x)));
+      for (std::size_t k = 0; k < 4 && !discrete_; ++k) {
+        spread = std::max(spread, std::abs(f(beside(x, k)) - f(x)));
       }
       return 16 * spread;
     });

@@ -1,12 +1,15 @@
 #include "pairs/rejected_share.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
-#include <optional>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bernstein.h"
+#include "pairs/batches.h"
 #include "pairs/binned_pair.h"
 #include "pairs/mass_integral.h"
 #include "streams.h"
@@ -15,7 +18,7 @@ namespace plumbline::verify {
 
 namespace {
 
-using Sampler = Many<std::optional<SampleRecord>(Uniforms)>;
+using Sampler = Many<Record(Uniforms)>;
 
 constexpr double kShareLevel = 1e-3;
 constexpr std::uint64_t kMostCounted = 1 << 24;
@@ -44,6 +47,65 @@ struct Precision {
   }
 };
 
+/// Whether the sampler rejects random numbers, of each whether.
+std::vector<char> rejected_of(const Sampler& sample, const std::vector<Uniforms>& u) {
+  std::vector<char> rejected(u.size());
+  std::vector<Record> records(std::min(u.size(), sample.batch()));
+  for (std::size_t first = 0; first < u.size(); first += sample.batch()) {
+    const std::size_t now = std::min(sample.batch(), u.size() - first);
+    sample(std::span(u).subspan(first, now), std::span(records).first(now));
+    for (std::size_t i = 0; i < now; ++i) rejected[first + i] = records[i] ? 0 : 1;
+  }
+  return rejected;
+}
+
+/// A line of constant second number, with the random numbers that it takes.
+struct RejectedLine {
+  static constexpr std::size_t kSteps = 64, kRandomPoints = 16;
+
+  double second = 0;
+  std::array<double, kSteps + 2> places{};     // 0, then one in each step, then the end
+  std::array<double, kRandomPoints> points{};  // that the borders are not made from
+  bool at_start = false;                       // rejected there
+  std::vector<double> borders;                 // alternately into and out of the rejected part
+
+  RejectedLine(double second_number, double last, Random& random) : second(second_number) {
+    for (std::size_t i = 0; i < kSteps; ++i) {
+      places[i + 1] = (static_cast<double>(i) + random.uniform()) / kSteps * last;
+    }
+    places.back() = last;
+    for (std::size_t i = 0; i < kRandomPoints; ++i) {
+      points[i] = (static_cast<double>(i) + random.uniform()) / kRandomPoints;
+    }
+  }
+
+  /// Of the rejected part between the borders.
+  double length() const {
+    double sum = 0, start = 0;
+    bool rejected = at_start;
+    for (const double b : borders) {
+      if (rejected) sum += b - start;
+      start = b;
+      rejected = !rejected;
+    }
+    return rejected ? sum + 1 - start : sum;
+  }
+
+  bool within_borders(double u) const {
+    const auto passed = std::upper_bound(borders.begin(), borders.end(), u) - borders.begin();
+    return (passed % 2 == 0) == at_start;
+  }
+};
+
+/// A border between two places of a line, one of which is rejected.
+struct RejectedBorder {
+  RejectedLine* line;
+  double from, to;
+  bool at_from;
+
+  double middle() const { return (from + to) / 2; }
+};
+
 /// The rejected part of lines of constant second number. Borders are bisected between random
 /// places, and what lies unseen between those is added by random points that the borders were not
 /// made from.
@@ -60,7 +122,10 @@ class RejectedLines {
 
   RejectedShare measure() {
     MassQuestion question;
-    question.integrand = [this](const Point2& p) { return length(p[0]); };
+    // A line takes more than 80 random numbers by itself: some dozens are worth a call.
+    question.integrand = {
+        [this](std::span<const Point2> p, std::span<double> out) { measure_lengths(p, out); },
+        std::max<std::size_t>(16, sample_.batch() / 64)};
     question.dimension = 1;
     question.own = 0;
     question.spread = numbers_ == 1 ? 16 : 512;
@@ -77,53 +142,68 @@ class RejectedLines {
   }
 
  private:
-  static constexpr int kSteps = 64, kRandomPoints = 16;
-
-  /// Length of the rejected part of a line, unbiased.
-  double length(double second) {
-    std::vector<double> borders;  // alternately into and out of the rejected part
-    bool inside = rejects(0, second);
-    const bool at_start = inside;
-    double from = 0;
-    for (int i = 0; i <= kSteps; ++i) {
-      const double to = i == kSteps ? last_ : (i + random_.uniform()) / kSteps * last_;
-      if (rejects(to, second) != inside) {
-        borders.push_back(bisect(from, to, inside, second));
-        inside = !inside;
+  /// Lengths of the rejected parts of lines, unbiased.
+  void measure_lengths(std::span<const Point2> seconds, std::span<double> lengths) {
+    std::vector<RejectedLine> lines;
+    for (const Point2& p : seconds) lines.emplace_back(p[0], last_, random_);
+    find_borders(lines);
+    std::vector<Uniforms> points;
+    for (const RejectedLine& line : lines) {
+      for (const double u : line.points) points.push_back(numbers_at(u, line.second));
+    }
+    const std::vector<char> rejected = rejected_of(sample_, points);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      double unseen = 0;
+      for (const double u : lines[i].points) {
+        unseen += (rejected[next++] != 0 ? 1.0 : 0.0) - (lines[i].within_borders(u) ? 1.0 : 0.0);
       }
-      from = to;
+      lengths[i] = lines[i].length() + unseen / RejectedLine::kRandomPoints;
     }
-    const auto modelled = [&](double u) {
-      const auto passed = std::upper_bound(borders.begin(), borders.end(), u) - borders.begin();
-      return (passed % 2 == 0) == at_start;
-    };
-    double sum = 0, start = 0;
-    bool rejected = at_start;
-    for (const double b : borders) {
-      if (rejected) sum += b - start;
-      start = b;
-      rejected = !rejected;
-    }
-    if (rejected) sum += 1 - start;
-    double unseen = 0;
-    for (int i = 0; i < kRandomPoints; ++i) {
-      const double u = (i + random_.uniform()) / kRandomPoints;
-      unseen += (rejects(u, second) ? 1.0 : 0.0) - (modelled(u) ? 1.0 : 0.0);
-    }
-    points_ += kRandomPoints;
-    return sum + unseen / kRandomPoints;
+    points_ += static_cast<double>(points.size());
   }
 
-  double bisect(double from, double to, bool at_from, double second) {
-    while (to - from > 4 * epsilon_) {
-      const double middle = (from + to) / 2;
-      (rejects(middle, second) == at_from ? from : to) = middle;
+  void find_borders(std::vector<RejectedLine>& lines) {
+    std::vector<Uniforms> places;
+    for (const RejectedLine& line : lines) {
+      for (const double u : line.places) places.push_back(numbers_at(u, line.second));
     }
-    return (from + to) / 2;
+    const std::vector<char> rejected = rejected_of(sample_, places);
+    std::vector<RejectedBorder> borders;
+    std::size_t next = 0;
+    for (RejectedLine& line : lines) {
+      line.at_start = rejected[next] != 0;
+      for (std::size_t i = 0; i + 1 < line.places.size(); ++i) {
+        const bool here = rejected[next + i] != 0, there = rejected[next + i + 1] != 0;
+        if (here != there) borders.push_back({&line, line.places[i], line.places[i + 1], here});
+      }
+      next += line.places.size();
+    }
+    bisect(borders);
+    for (const RejectedBorder& b : borders) b.line->borders.push_back(b.middle());
   }
 
-  bool rejects(double first, double second) {
-    return !sample_({std::min(first, last_), std::min(second, last_), 0});
+  /// All at once: each asks for its middle until it is known.
+  void bisect(std::vector<RejectedBorder>& borders) {
+    std::vector<RejectedBorder*> open;
+    for (RejectedBorder& b : borders) open.push_back(&b);
+    while (true) {
+      std::erase_if(open, [&](const RejectedBorder* b) { return b->to - b->from <= 4 * epsilon_; });
+      if (open.empty()) return;
+      std::vector<Uniforms> middles;
+      for (const RejectedBorder* b : open) {
+        middles.push_back(numbers_at(b->middle(), b->line->second));
+      }
+      const std::vector<char> rejected = rejected_of(sample_, middles);
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        (((rejected[i] != 0) == open[i]->at_from) ? open[i]->from : open[i]->to) =
+            open[i]->middle();
+      }
+    }
+  }
+
+  Uniforms numbers_at(double first, double second) const {
+    return {std::min(first, last_), std::min(second, last_), 0};
   }
 
   const Sampler& sample_;
@@ -135,15 +215,18 @@ class RejectedLines {
 };
 
 /// Share among random numbers of one after the other.
-template <class Rejects>
-RejectedShare count(const Rejects& rejects, std::uint64_t at_most, const Precision& precision) {
+///
+/// @param rejected_among  how many of so many more
+template <class Rejected>
+RejectedShare count(const Rejected& rejected_among, std::uint64_t at_most,
+                    const Precision& precision) {
   RejectedShare share;
   double rejected = 0;
+  std::uint64_t before = 0;
   for (std::uint64_t n = precision.probes();; n = std::min(2 * n, at_most)) {
-    while (share.points < static_cast<double>(n)) {
-      rejected += rejects() ? 1 : 0;
-      share.points += 1;
-    }
+    rejected += static_cast<double>(rejected_among(n - before));
+    before = n;
+    share.points = static_cast<double>(n);
     share.value = rejected / share.points;
     share.variance = share.value * (1 - share.value) / share.points;
     share.largest_term = 1 / share.points;
@@ -151,28 +234,48 @@ RejectedShare count(const Rejects& rejects, std::uint64_t at_most, const Precisi
   }
 }
 
+/// The same of a sampler that takes a generator.
+template <class Draw>
+RejectedShare count_drawn(const Draw& draw, Random& random, const Precision& precision) {
+  const auto rejected_among = [&](std::uint64_t more) {
+    std::uint64_t rejected = 0;
+    for (std::uint64_t i = 0; i < more; ++i) rejected += draw(random) ? 0U : 1U;
+    return rejected;
+  };
+  return count(rejected_among, kMostCounted, precision);
+}
+
 /// Two random points in each cell of a grid over the square or cube.
 RejectedShare on_grid(const Sampler& sample, int numbers, int per_side, double epsilon,
                       Random& random) {
   const int layers = numbers == 2 ? 1 : per_side;
-  const auto rejected = [&](int i, int j, int k) {
-    const std::array<int, 3> cell{i, j, k};
-    Uniforms u{};
-    for (std::size_t d = 0; d < static_cast<std::size_t>(numbers); ++d) {
-      u[d] = std::min((cell[d] + random.uniform()) / per_side, 1 - epsilon);
-    }
-    return sample(u) ? 0.0 : 1.0;
-  };
   double sum = 0, squares = 0;
+  std::vector<Uniforms> points;
+  const auto add_points = [&](const std::array<int, 3>& cell) {
+    for (int twice = 0; twice < 2; ++twice) {
+      Uniforms u{};
+      for (std::size_t d = 0; d < static_cast<std::size_t>(numbers); ++d) {
+        u[d] = std::min((cell[d] + random.uniform()) / per_side, 1 - epsilon);
+      }
+      points.push_back(u);
+    }
+  };
+  const auto add_up = [&] {
+    const std::vector<char> rejected = rejected_of(sample, points);
+    for (std::size_t i = 0; i + 1 < rejected.size(); i += 2) {
+      const double a = rejected[i], b = rejected[i + 1];
+      sum += (a + b) / 2;
+      squares += (a - b) * (a - b) / 4;
+    }
+    points.clear();
+  };
   for (int i = 0; i < per_side; ++i) {
     for (int j = 0; j < per_side; ++j) {
-      for (int k = 0; k < layers; ++k) {
-        const double a = rejected(i, j, k), b = rejected(i, j, k);
-        sum += (a + b) / 2;
-        squares += (a - b) * (a - b) / 4;
-      }
+      for (int k = 0; k < layers; ++k) add_points({i, j, k});
+      if (points.size() >= sample.batch()) add_up();
     }
   }
+  add_up();
   const double cells = static_cast<double>(per_side) * per_side * layers;
   return {sum / cells, squares / (cells * cells), 0.5 / cells, 2 * cells};
 }
@@ -180,14 +283,21 @@ RejectedShare on_grid(const Sampler& sample, int numbers, int per_side, double e
 RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon,
                          const Precision& precision, std::uint64_t seed) {
   Random random = random_for(seed, Stream::probes);
-  const auto rejects = [&] {
-    Uniforms u{};
-    for (int d = 0; d < numbers; ++d) {
-      u[static_cast<std::size_t>(d)] = std::min(random.uniform(), 1 - epsilon);
+  const auto rejected_among = [&](std::uint64_t more) {
+    std::uint64_t rejected = 0;
+    std::vector<Uniforms> batch;
+    for (std::uint64_t i = 0; i < more; ++i) {
+      Uniforms& u = batch.emplace_back();
+      for (int d = 0; d < numbers; ++d) {
+        u[static_cast<std::size_t>(d)] = std::min(random.uniform(), 1 - epsilon);
+      }
+      if (batch.size() < sample.batch() && i + 1 < more) continue;
+      for (const char r : rejected_of(sample, batch)) rejected += r != 0 ? 1U : 0U;
+      batch.clear();
     }
-    return !sample(u);
+    return rejected;
   };
-  const RejectedShare probed = count(rejects, precision.probes(), precision);
+  const RejectedShare probed = count(rejected_among, precision.probes(), precision);
   if (probed.value == 0) return probed;
   RejectedShare best = probed;
   if (numbers < 3) {
@@ -238,7 +348,7 @@ RejectedShare measure_rejected(const SamplingPair& pair, const ContractOptions& 
       const Precision of_lobe = precision.of_part(lobe.probability);
       const RejectedShare share =
           (lobe.sample ? of_numbers(lobe.sample, 2, pair.epsilon, of_lobe, lobe_seed)
-                       : count([&] { return !lobe.draw(random); }, kMostCounted, of_lobe))
+                       : count_drawn(lobe.draw, random, of_lobe))
               .scaled(lobe.probability);
       sum.value += share.value;
       sum.variance += share.variance;
@@ -249,7 +359,7 @@ RejectedShare measure_rejected(const SamplingPair& pair, const ContractOptions& 
   }
   if (pair.draw) {
     Random random = random_for(seed, Stream::probes);
-    return count([&] { return !pair.draw(random); }, kMostCounted, precision);
+    return count_drawn(pair.draw, random, precision);
   }
   return of_numbers(pair.sample, pair.numbers, pair.epsilon, precision, seed);
 }

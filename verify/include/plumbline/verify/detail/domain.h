@@ -41,6 +41,19 @@ class Domain {
   /// [low, high], density per unit. @throws std::invalid_argument unless low < high
   static Domain interval(double low = 0, double high = 1);
 
+  /// [0, ∞), density per unit: distances of free flight. Points are finite.
+  ///
+  /// @param scale  about the size of what is sampled, in the same units. Bins follow the samples
+  ///               whatever it is; one that is off by thousands costs evaluations
+  /// @throws std::invalid_argument unless 0 < scale < ∞
+  static Domain half_line(double scale = 1);
+
+  /// (−∞, ∞), density per unit.
+  ///
+  /// @param center, scale  about where, and how wide, what is sampled lies
+  /// @throws std::invalid_argument unless they are finite and scale > 0
+  static Domain line(double center = 0, double scale = 1);
+
   /// 0, 1, …, size − 1, a probability each. @throws std::invalid_argument for size 0
   static Domain discrete(std::size_t size);
 
@@ -99,7 +112,8 @@ class Domain {
   const std::array<std::vector<double>, 2>& breaks() const { return breaks_; }
 
   /// The same domain with further lines, in the coordinates of its chart's square: for `sphere`
-  /// ((1 − z)/2, φ/2π), for an interval its share from 0 to 1, for a disk (r²/R², φ/2π).
+  /// ((1 − z)/2, φ/2π), for an interval its share from 0 to 1, for a half-line x/(scale + x), for a
+  /// line ½ + atan((x − center)/scale)/π, for a disk (r²/R², φ/2π).
   Domain with_breaks(const std::vector<double>& first,
                      const std::vector<double>& second = {}) const;
 
