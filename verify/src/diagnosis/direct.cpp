@@ -233,6 +233,11 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
     const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
     if (crowded >= varying || (v->pair->domain.dimension() == 1)) {
       if (const auto f = of_made_up_density(*v, some + " lie in one point, " + where)) return f;
+      // Of directions both coordinates would have to be clamped; a mirror gives one by itself.
+      if (v->pair->domain.directions() && has_wo(*v)) {
+        return Finding{CauseKind::atom_as_density, some + " lie in one point, " + where +
+                                                       ": an atom that is not said to be one"};
+      }
       return Finding{CauseKind::on_a_line, some + " lie in one point, " + where +
                                                ": a clamp, or an atom that is not said to be one"};
     }

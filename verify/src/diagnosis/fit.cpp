@@ -110,9 +110,12 @@ class LeastSquares {
 
  private:
   std::vector<Doubles> derivatives(const Doubles& p, bool flatten) const {
+    // At the limb of a light a ratio turns within 1e-9 of a number. Residuals are known to far less
+    // of their errors than such a step changes; first steps look farther.
+    const double step = flatten ? 1e-6 : 1e-9;
     std::vector<Doubles> slopes;
     for (std::size_t i = 0; i < p.size(); ++i) {
-      const double h = 1e-6 * std::max(1.0, std::abs(p[i]));
+      const double h = step * std::max(1.0, std::abs(p[i]));
       Doubles above = p, below = p;
       above[i] += h;
       below[i] -= h;
