@@ -19,6 +19,11 @@ namespace {
 
 using Conventions = BsdfConventions;
 
+double cosine_at(const Vec3& w, Conventions::Cosine kind) {
+  if (kind == Conventions::Cosine::fibre) return std::hypot(w[0], w[1]);
+  return std::abs(w[2]);
+}
+
 /// Between Plumbline's local frame (z up) and the frame of the code under test.
 class FrameChange {
  public:
@@ -91,13 +96,18 @@ class Translator {
   }
 
   double density(double theirs, const Vec3& wi) const {
-    return c_.projected_pdf ? theirs * std::abs(wi[2]) : theirs;
+    return c_.projected_pdf ? theirs * cosine_of(wi) : theirs;
   }
 
-  Channels value(Channels theirs, const Vec3& wi) const {
-    const double cosine = std::abs(wi[2]);
+  bool eval_over_pdf() const { return c_.eval_over_pdf; }
+
+  /// @param pdf  the author's, where `eval_over_pdf`
+  Channels value(Channels theirs, const Vec3& wi, double pdf) const {
+    const double cosine = cosine_of(wi);
+    const double projected = c_.projected_pdf ? cosine : 1;
+    if (c_.eval_over_pdf) scale(theirs, pdf * projected);
     // On the horizon f·|cosθ| says nothing about f, and nothing is asked of it.
-    if (c_.cosine_in_eval) scale(theirs, cosine > 0 ? 1 / cosine : 0);
+    if (c_.cosine_in_eval || c_.eval_over_pdf) scale(theirs, cosine > 0 ? 1 / cosine : 0);
     return theirs;
   }
 
@@ -117,7 +127,7 @@ class Translator {
     if (c_.zero_pdf_is_failure && record->mass == 0 && probability == 0) return std::nullopt;
     record->x = frame_.to_ours(record->x);
     translate_weight(*record, probability);
-    if (c_.projected_pdf && record->pdf) *record->pdf *= std::abs(record->x[2]);
+    if (c_.projected_pdf && record->pdf) *record->pdf *= cosine_of(record->x);
     return record;
   }
 
@@ -140,11 +150,13 @@ class Translator {
       record.weight = {};
       return;
     }
-    const double cosine = std::abs(record.x[2]);
+    const double cosine = cosine_of(record.x);
     const double projected = c_.projected_pdf && !(record.mass > 0) ? cosine : 1;
     const double value = c_.weight == Conventions::Weight::f ? cosine : 1;
     scale(record.weight, value / (projected * probability));
   }
+
+  double cosine_of(const Vec3& w) const { return cosine_at(w, c_.cosine); }
 
   Conventions c_;
   FrameChange frame_;
@@ -168,14 +180,18 @@ struct TranslatedDensity {
 struct TranslatedValue {
   Shared to;
   Many<Channels(Vec3, Vec3)> theirs;
+  Density density;
 
   Channels operator()(const Vec3& wo, const Vec3& wi) const {
-    return to->value(to->call(theirs, wo, wi), wi);
+    const double pdf = to->eval_over_pdf() ? to->call(density, wo, wi) : 0;
+    return to->value(to->call(theirs, wo, wi), wi, pdf);
   }
   void operator()(std::span<const Vec3> wo, std::span<const Vec3> wi,
                   std::span<Channels> out) const {
     to->call(theirs, wo, wi, out);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = to->value(out[i], wi[i]);
+    std::vector<double> pdf(out.size(), 0.0);
+    if (to->eval_over_pdf()) to->call(density, wo, wi, std::span(pdf));
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = to->value(out[i], wi[i], pdf[i]);
   }
 };
 
@@ -239,8 +255,10 @@ void translate_sampling(const Shared& to, T& it) {
 ErasedBsdf apply_conventions(ErasedBsdf bsdf, const BsdfConventions& conventions) {
   if (conventions == BsdfConventions{}) return bsdf;
   const auto to = std::make_shared<const Translator>(conventions);
+  if (bsdf.eval) bsdf.eval = {TranslatedValue{to, bsdf.eval, bsdf.pdf}, bsdf.eval.batch()};
   translate_sampling(to, bsdf);
-  if (bsdf.eval) bsdf.eval = {TranslatedValue{to, bsdf.eval}, bsdf.eval.batch()};
+  bsdf.without_eta_squared = conventions.without_eta_squared;
+  bsdf.cosine = conventions.cosine;
   for (BsdfLobe& lobe : bsdf.lobes) {
     translate_sampling(to, lobe);
     lobe.probability = [to, theirs = lobe.probability](const Vec3& wo) {
@@ -249,6 +267,8 @@ ErasedBsdf apply_conventions(ErasedBsdf bsdf, const BsdfConventions& conventions
   }
   return bsdf;
 }
+
+double ErasedBsdf::cosine_of(const Vec3& w) const { return cosine_at(w, cosine); }
 
 std::optional<SampleRecord> ErasedBsdf::next(const Vec3& wo, Random& random) const {
   return draw ? draw(wo, random) : sample(wo, draw_uniforms(random, numbers, epsilon));

@@ -37,10 +37,12 @@ Many<R(A)> from_direction(const Vec3& wo, const Many<R(Vec3, A)>& function) {
 
 /// f·|cosθ|
 struct TimesCosine {
+  Held bsdf;
   Many<Channels(Vec3)> f;
 
-  static void weigh(const Vec3& wi, Channels& value) {
-    for (std::size_t c = 0; c < value.count; ++c) value.value[c] *= std::abs(wi[2]);
+  void weigh(const Vec3& wi, Channels& value) const {
+    const double cosine = bsdf->cosine_of(wi);
+    for (std::size_t c = 0; c < value.count; ++c) value.value[c] *= cosine;
   }
   Channels operator()(const Vec3& wi) const {
     Channels value = f(wi);
@@ -108,7 +110,7 @@ SamplingPair bsdf_pair(const std::string& name, const ErasedBsdf& erased, const 
   pair.sample = from_direction(wo, bsdf->sample);
   if (bsdf->draw) pair.draw = [bsdf, wo](Random& random) { return bsdf->draw(wo, random); };
   pair.pdf = from_direction(wo, bsdf->pdf);
-  pair.value = {TimesCosine{from_direction(wo, bsdf->eval)}, bsdf->eval.batch()};
+  pair.value = {TimesCosine{bsdf, from_direction(wo, bsdf->eval)}, bsdf->eval.batch()};
   pair.lobes = lobes_at(bsdf, wo);
   for (const BsdfSuspect& s : options.suspects) {
     pair.suspects.push_back({s.name, [s, wo](const Vec3& wi) { return s.value(wo, wi); }});

@@ -28,8 +28,8 @@ std::vector<Record> probes(const SamplingPair& pair, Random& random) {
 }
 
 /// Part of the albedo that atoms carry, in one channel, freed of η².
-double atoms_albedo(const SamplingPair& pair, const Vec3& wo, double eta, std::size_t channel,
-                    std::uint64_t seed) {
+double atoms_albedo(const SamplingPair& pair, const ErasedBsdf& bsdf, const Vec3& wo, double eta,
+                    std::size_t channel, std::uint64_t seed) {
   Random random = random_for(seed, Stream::atoms_albedo);
   std::vector<Vec3> seen;
   double sum_of_atoms = 0;
@@ -40,7 +40,7 @@ double atoms_albedo(const SamplingPair& pair, const Vec3& wo, double eta, std::s
     });
     if (known) continue;
     seen.push_back(s->x);
-    sum_of_atoms += s->mass * s->weight[channel] * eta_squared(s->x, eta) / eta_squared(wo, eta);
+    sum_of_atoms += s->mass * s->weight[channel] * power_factor(bsdf, wo, s->x, eta);
   }
   return sum_of_atoms;
 }
@@ -76,13 +76,12 @@ CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const 
     std::vector<Channels> of(wi.size());
     pair.value(wi, of);
     for (std::size_t i = 0; i < wi.size(); ++i) {
-      const double scale = eta_squared(wi[i], options.eta) / eta_squared(wo, options.eta);
-      out[i] = of[i][channel] * scale;
+      out[i] = of[i][channel] * power_factor(bsdf, wo, wi[i], options.eta);
     }
   };
   const MassIntegral integral = integrate_over_domain(
       pair, {value, pair.value.batch()}, options.contract, options.energy_tolerance / 4);
-  const double atoms = atoms_albedo(pair, wo, options.eta, channel, seed);
+  const double atoms = atoms_albedo(pair, bsdf, wo, options.eta, channel, seed);
 
   const ErrorBudget& budget = options.contract.budget;
   const double known_to = integral.error(budget.pass_level());

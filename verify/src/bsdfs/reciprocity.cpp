@@ -98,7 +98,7 @@ class Reciprocity {
     bsdf_.eval(wo, wi, f);
     std::vector<double> values;
     for (std::size_t i = 0; i < f.size(); ++i) {
-      values.push_back(f[i][c] / eta_squared(wo[i], options_.eta));
+      values.push_back(f[i][c] / reciprocity_divisor(bsdf_, wo[i], wi[i], options_.eta));
     }
     return values;
   }
@@ -116,16 +116,17 @@ class Reciprocity {
     bsdf_.eval(wo, wi, there);
     bsdf_.eval(wi, wo, back);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      pairs[i].there = freed_of_eta(there[i], wo[i]);
-      pairs[i].back = freed_of_eta(back[i], wi[i]);
+      pairs[i].there = freed_of_eta(there[i], wo[i], wi[i]);
+      pairs[i].back = freed_of_eta(back[i], wi[i], wo[i]);
       peak_ = std::max({peak_, largest(pairs[i].there), largest(pairs[i].back)});
     }
     result_.samples = pairs.size();
     return pairs;
   }
 
-  Channels freed_of_eta(Channels f, const Vec3& w) const {
-    for (std::size_t c = 0; c < f.count; ++c) f.value[c] /= eta_squared(w, options_.eta);
+  Channels freed_of_eta(Channels f, const Vec3& wo, const Vec3& wi) const {
+    const double divisor = reciprocity_divisor(bsdf_, wo, wi, options_.eta);
+    for (std::size_t c = 0; c < f.count; ++c) f.value[c] /= divisor;
     return f;
   }
 

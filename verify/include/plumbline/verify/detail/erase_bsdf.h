@@ -23,6 +23,18 @@ struct BsdfConventions {
   /// eval returns f·|cosθi| instead of f.
   bool cosine_in_eval = false;
 
+  /// eval returns f·|cosθi|/pdf, what pdf() is to be multiplied by.
+  bool eval_over_pdf = false;
+
+  /// f of what is refracted lacks the square of the relative index that radiance gains or loses.
+  bool without_eta_squared = false;
+
+  enum class Cosine {
+    surface,  ///< |z|, z the normal
+    fibre     ///< √(1 − z²), z the tangent of a curve or hair
+  };
+  Cosine cosine = Cosine::surface;
+
   /// eval and pdf take (wi, wo): first the direction that was sampled.
   bool sampled_direction_first = false;
 
@@ -75,6 +87,13 @@ struct ErasedBsdf {
   Many<double(Vec3, Vec3)> pdf;                                              ///< of wo, wi
   Many<Channels(Vec3, Vec3)> eval;                                           ///< of wo, wi
   std::vector<BsdfLobe> lobes;                                               ///< empty: not exposed
+
+  // What no translation takes out: what f is, not how it is written down.
+  bool without_eta_squared = false;
+  BsdfConventions::Cosine cosine = BsdfConventions::Cosine::surface;
+
+  /// |cosθ| of a direction.
+  double cosine_of(const Vec3& w) const;
 
   /// One sample from the generator, by whichever of `sample` and `draw` there is.
   std::optional<SampleRecord> next(const Vec3& wo, Random& random) const;
