@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <vector>
 
 #include <plumbline/verify/detail/many.h>
@@ -39,8 +38,8 @@ struct MassQuestion {
 
   int dimension = 2;       ///< 1: the integrand depends on the first coordinate alone
   double target = 2.5e-5;  ///< error of the total at 99.9 % after which nothing more is spent
-  /// The same, where the target is out of reach: all that may be spent is, if need be.
-  double good_enough = std::numeric_limits<double>::infinity();
+  /// The same, where the target is out of reach: above it all that may be spent is.
+  double good_enough = 0;
   std::uint64_t max_evaluations = 4'000'000;
   std::size_t own = 1 << 16;     ///< samples of the pair's own in each round
   std::size_t spread = 1 << 14;  ///< random nodes, evenly over the square, in each round

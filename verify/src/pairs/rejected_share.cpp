@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -130,6 +131,7 @@ class RejectedLines {
     question.own = 0;
     question.spread = numbers_ == 1 ? 16 : 512;
     question.target = error_ / 2;
+    question.good_enough = std::numeric_limits<double>::infinity();  // a grid may do as well
     question.max_evaluations = 6'000;
     question.seed = random_.bits();
     std::vector<Cell> strips;
