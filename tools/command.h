@@ -16,5 +16,6 @@ void add_render_command(options::CommandLine& line);
 void add_calibrate_command(options::CommandLine& line);
 void add_compare_command(options::CommandLine& line);
 void add_report_command(options::CommandLine& line);
+void add_verify_command(options::CommandLine& line);
 
 }  // namespace plumbline::tools

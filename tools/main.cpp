@@ -23,6 +23,7 @@ constexpr const char* kExamples = R"(Examples:
   plumbline list scenes
   plumbline render furnace_sphere -o furnace.exr --strategy mis --spp 256
   plumbline compare furnace.exr --scene furnace_sphere
+  plumbline verify --exec './my_bsdf'
   plumbline calibrate
   plumbline render bench/scenes/cornell.xml -o cornell.exr --seconds 10 --json cornell.json
 
@@ -74,6 +75,7 @@ int main_of(int argc, char** argv) {
   add_render_command(line);
   add_compare_command(line);
   add_calibrate_command(line);
+  add_verify_command(line);
   add_report_command(line);
   try {
     if (argc > 1) check_command_name(line, argv[1]);

@@ -6,6 +6,8 @@
 
 #include <plumbline/reports/results.h>
 
+#include "files.h"
+
 namespace plumbline::reports {
 namespace {
 
@@ -53,5 +55,12 @@ ResultLog::ResultLog(const std::filesystem::path& directory, std::string_view na
 ResultLog::~ResultLog() { ::close(file_); }
 
 void ResultLog::append_line(std::string line) { write_line(file_, std::move(line), path_); }
+
+void write_checks(const std::filesystem::path& path,
+                  const std::vector<verify::CheckResult>& results) {
+  std::string text = to_json(current_environment()) + "\n";
+  for (const verify::CheckResult& result : results) text += to_json(result) + "\n";
+  detail::write_file_atomically(path, text);
+}
 
 }  // namespace plumbline::reports

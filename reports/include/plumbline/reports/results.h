@@ -55,6 +55,13 @@ class ResultLog {
   int file_ = -1;
 };
 
+/// Writes a file of records with the environment that they were made in: what ResultLog makes, but
+/// whole or not at all, in the place of what was there.
+///
+/// @throws std::system_error where it cannot be written
+void write_checks(const std::filesystem::path& path,
+                  const std::vector<verify::CheckResult>& results);
+
 /// A place in a results directory that could not be read.
 struct ReadWarning {
   std::filesystem::path file;

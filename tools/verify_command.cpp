@@ -1,0 +1,260 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <plumbline/exchange/answerer.h>
+#include <plumbline/exchange/self_test.h>
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/reports/results.h>
+#include <plumbline/verify/bsdf.h>
+#include <plumbline/verify/detail/stopwatch.h>
+
+#include "command.h"
+#include "domain_argument.h"
+#include "output_file.h"
+#include "verify_options.h"
+
+namespace plumbline::tools {
+namespace {
+
+struct VerifyArguments {
+  reports::VerifyOptionsFile given;
+  std::string options_file, json, results;
+  bool self_test = false, quick = false, not_reciprocal = false, gains_energy = false;
+  std::vector<std::string> conventions;
+  std::optional<double> timeout, eta;
+};
+
+using SharedAnswerer = exchange::SharedAnswerer;
+
+/// What the command line and the file say together.
+reports::VerifyOptionsFile all_given(const VerifyArguments& arguments) {
+  reports::VerifyOptionsFile given = arguments.given;
+  given.timeout = arguments.timeout;
+  given.eta = arguments.eta;
+  if (!arguments.conventions.empty()) given.conventions = arguments.conventions;
+  if (arguments.not_reciprocal) given.reciprocal = false;
+  if (arguments.quick) given.quick = true;
+  if (arguments.gains_energy) given.conserves_energy = false;
+  if (!arguments.options_file.empty()) given = with_file(given, arguments.options_file);
+  return given;
+}
+
+exchange::AnswererOptions answerer_options(const reports::VerifyOptionsFile& given) {
+  exchange::AnswererOptions options;
+  options.command = given.exec.value_or("");
+  options.folder = given.exchange.value_or("");
+  options.timeout = given.timeout.value_or(options.timeout);
+  constexpr double kLongest = 1e6;
+  if (!(options.timeout > 0) || options.timeout > kLongest) {
+    throw renderer::InputError("a timeout is a positive number of seconds, a million at most");
+  }
+  if (options.command.empty() && options.folder.empty()) {
+    throw renderer::InputError("verify needs --exec COMMAND or --exchange DIR");
+  }
+  return options;
+}
+
+/// The domain asked for, else the one that the program states; nothing: a BSDF.
+std::optional<verify::Domain> domain_of(const std::optional<std::string>& asked,
+                                        const reports::AnswererHello& hello) {
+  if (asked && !hello.domain.empty() && *asked != hello.domain) {
+    throw renderer::InputError(
+        fmt::format("--domain {}, but the program answers for {}", *asked, hello.domain));
+  }
+  return parse_domain(asked.value_or(hello.domain.empty() ? "bsdf" : hello.domain));
+}
+
+/// A BSDF without `eval`: what its `sample` and `pdf` say of each other, from each direction.
+verify::Report check_without_eval(const std::string& name, const verify::ErasedBsdf& bsdf,
+                                  const verify::BsdfOptions& options) {
+  fmt::print("no eval: weights, reciprocity and energy are not checked\n");
+  verify::Random random(options.contract.seed);
+  verify::Report all;
+  for (const bool front : {true, false}) {
+    if (!(front ? options.front : options.back)) continue;
+    for (const double degrees : options.angles) {
+      const double theta = degrees * std::numbers::pi / 180;
+      const double phi = 2 * std::numbers::pi * random.uniform();
+      const verify::Vec3 wo{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                            front ? std::cos(theta) : -std::cos(theta)};
+      verify::SamplingPair pair = verify::bsdf_pair(
+          fmt::format("{}/{} {:.4g}°", name, front ? "front" : "back", degrees), bsdf, wo, options);
+      pair.value = nullptr;
+      all.append(verify::check_pair(pair, options.contract));
+    }
+  }
+  return all;
+}
+
+verify::Report check(const SharedAnswerer& answerer, const reports::VerifyOptionsFile& given) {
+  const verify::BsdfOptions options = bsdf_options(given);
+  const std::string name = given.name.value_or(answerer->hello().name);
+  if (const auto domain = domain_of(given.domain, answerer->hello())) {
+    if (given.conventions || given.angles || given.faces || given.eta) {
+      throw renderer::InputError(
+          "conventions, angles, faces and eta belong to a BSDF, not to other domains");
+    }
+    return verify::check_pair(exchange::as_pair(answerer, name, *domain), options.contract);
+  }
+  const verify::ErasedBsdf bsdf = exchange::as_bsdf(answerer, options.conventions);
+  return bsdf.eval ? verify::check_bsdf(name, bsdf, options)
+                   : check_without_eval(name, bsdf, options);
+}
+
+void keep_results(const VerifyArguments& arguments, const verify::Report& report) {
+  if (arguments.results.empty()) return;
+  try {
+    reports::ResultLog log(arguments.results, "verify");
+    for (const verify::CheckResult& result : report) log.append(result);
+  } catch (const std::system_error& error) {
+    throw renderer::InputError(error.what());
+  }
+}
+
+int run_checks(const VerifyArguments& arguments, const reports::VerifyOptionsFile& given) {
+  std::optional<OutputFile> json;
+  if (!arguments.json.empty()) json.emplace(arguments.json);
+  const verify::BsdfOptions options = bsdf_options(given);  // wrong ones start no program
+  const auto answerer = std::make_shared<exchange::Answerer>(answerer_options(given));
+  const verify::Stopwatch watch;
+  verify::Report report = check(answerer, given);
+  const double seconds = watch.seconds();
+  const std::string end = answerer->finish();
+  if (!end.empty()) fmt::print(stderr, "plumbline: {}\n", end);
+  report.replay = replay_command(given, options.contract.seed);
+  for (verify::CheckResult& result : report) result.replay = report.replay;
+  keep_results(arguments, report);
+  if (json) {
+    reports::write_checks(json->path(), report.results);
+    json->finish();
+  }
+  fmt::print("{}\n{} values in {} queries, {:.1f} s\n", report.summary(), answerer->values(),
+             answerer->queries(), seconds);
+  return report.ok() ? kExitFine : kExitUnexpectedVerdict;
+}
+
+int run_self_test(const reports::VerifyOptionsFile& given) {
+  const auto tell = [](const exchange::SelfTestStep& step) {
+    fmt::print("{:<4} {}{}{}\n", step.ok ? "ok" : "FAIL", step.what,
+               step.detail.empty() ? "" : ": ", step.detail);
+    std::fflush(stdout);
+  };
+  const auto domain = [&](const reports::AnswererHello& hello) {
+    return domain_of(given.domain, hello);
+  };
+  return exchange::self_test(answerer_options(given), domain, tell) ? kExitFine
+                                                                    : kExitUnexpectedVerdict;
+}
+
+int run_verify(const VerifyArguments& arguments) {
+  const reports::VerifyOptionsFile given = all_given(arguments);
+  if (given.domain) parse_domain(*given.domain);
+  try {
+    return arguments.self_test ? run_self_test(given) : run_checks(arguments, given);
+  } catch (const exchange::AnswererError& error) {
+    throw renderer::InputError(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw renderer::InputError(error.what());
+  }
+}
+
+constexpr const char* kVerifyFooter =
+    R"(The program answers queries by the protocol of docs/protocol.md: examples/answerers/ has one in C, Python,
+JavaScript and Go. Its standard error is shown. Exit codes: 0 all checks pass, 1 one does not, 2 the program does
+not do as the protocol says.
+
+Domains: bsdf, sphere, hemisphere, disk, disk:RADIUS, square, triangle, interval, interval:LOW:HIGH, half-line:SCALE,
+line:CENTER:SCALE, discrete:SIZE, equirectangular:COLUMNSxROWS, octahedral:PIXELS.
+Conventions: cosine-in-eval, sampled-direction-first, given-points-in, y-up, normal:X,Y,Z (world space),
+zero-pdf-is-failure, projected-pdf, weight-is-f, weight-is-f-cosine, weight-unused.
+The file of --options is a JSON object: {"exec": "./mine", "angles": [0, 60], "conventions": ["y-up"]}; its names
+are exec, exchange, name, domain, timeout, eta, angles, conventions, faces, reciprocal, conserves_energy, quick,
+samples, seed.
+
+Examples:
+  plumbline verify --exec ./mine --self-test
+  plumbline verify --exec ./mine --angles 0,60,80 --faces front
+  plumbline verify --exec 'python3 light.py' --domain sphere --json light.jsonl
+  plumbline verify --exec ./batch_job --exchange /tmp/queries --timeout 600)";
+
+/// Options whose values go where a file's go too.
+void add_given_options(options::Command& command, reports::VerifyOptionsFile& given) {
+  const auto text = [&](const char* name, std::optional<std::string>& into, const char* type,
+                        const char* meaning) {
+    command
+        .add_text(
+            name, [&into](const std::string& value) { into = value; }, meaning)
+        .type(type);
+  };
+  const auto number = [&](const char* name, std::optional<std::uint64_t>& into,
+                          std::int64_t smallest, const char* meaning) {
+    command
+        .add_text(
+            name, [&into](const std::string& value) { into = std::stoull(value); }, meaning)
+        .whole_number(smallest, std::numeric_limits<std::int64_t>::max())
+        .type("N");
+  };
+  text("--exec", given.exec, "COMMAND", "The program, as a shell command");
+  text("--exchange", given.exchange, "DIR",
+       "Queries and answers are files in this folder; --exec is run once for each");
+  text("--name", given.name, "NAME", "In the names of results; the program's own without it");
+  text("--domain", given.domain, "DOMAIN", "Where the samples live; bsdf without it");
+  text("--faces", given.faces, "FACES", "Faces that a BSDF is looked at from: both, front, back");
+  command
+      .add_text(
+          "--angles", [&given](const std::string& value) { given.angles = parse_angles(value); },
+          "Angles from the normal that it is looked at from [degrees]; 0,60,80,88,89.9 without it")
+      .type("LIST");
+  number("--samples", given.samples, 1000,
+         "Of chi-square, at the last look; 1000000 without it, 250000 with --quick");
+  number("--seed", given.seed, 0, "Seed of the checks; 1 without it");
+}
+
+}  // namespace
+
+void add_verify_command(options::CommandLine& line) {
+  const auto arguments = std::make_shared<VerifyArguments>();
+  options::Command command =
+      line.add_command("verify", "Check sampling code in another program, in any language");
+  add_given_options(command, arguments->given);
+  command.add("--eta", arguments->eta, "Refractive index below the surface over that above; 1")
+      .positive_number()
+      .type("ETA");
+  command
+      .add("--convention", arguments->conventions,
+           "How the program writes things down where it differs; repeatable, see below")
+      .one_value_each()
+      .type("WORD");
+  command.add_flag("--not-reciprocal", arguments->not_reciprocal,
+                   "f(wo, wi) and f(wi, wo) may differ");
+  command.add_flag("--gains-energy", arguments->gains_energy, "The albedo may be above 1");
+  command.add_flag("--quick", arguments->quick,
+                   "A tenth of the values, for slow programs: a pass proves less");
+  command
+      .add("--timeout", arguments->timeout,
+           "Of the first line and of each answer [s]; 60 without it")
+      .positive_number()
+      .type("S");
+  command.add("--options", arguments->options_file, "JSON file of options; the command line's win")
+      .type("FILE");
+  command.add_flag("--self-test", arguments->self_test,
+                   "Does the program keep to the protocol? Whatever its values are");
+  command.add("--json", arguments->json, "File to write the results to, a line of JSON each")
+      .type("FILE");
+  command.add("--results", arguments->results, "Directory to add the results to, for report")
+      .type("DIR");
+  command.footer(kVerifyFooter);
+  command.runs([arguments] { return run_verify(*arguments); });
+}
+
+}  // namespace plumbline::tools

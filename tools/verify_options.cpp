@@ -1,0 +1,206 @@
+#include "verify_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/scene_file/nearest_name.h>
+
+namespace plumbline::tools {
+namespace {
+
+using Conventions = verify::BsdfConventions;
+using Given = reports::VerifyOptionsFile;
+
+struct ConventionWord {
+  const char* word;
+  void (*put)(Conventions&);
+};
+
+constexpr std::array kConventions = {
+    ConventionWord{"cosine-in-eval", [](Conventions& c) { c.cosine_in_eval = true; }},
+    ConventionWord{"sampled-direction-first",
+                   [](Conventions& c) { c.sampled_direction_first = true; }},
+    ConventionWord{"given-points-in", [](Conventions& c) { c.given_points_in = true; }},
+    ConventionWord{"y-up", [](Conventions& c) { c.frame = Conventions::Frame::local_y_up; }},
+    ConventionWord{"zero-pdf-is-failure", [](Conventions& c) { c.zero_pdf_is_failure = true; }},
+    ConventionWord{"projected-pdf", [](Conventions& c) { c.projected_pdf = true; }},
+    ConventionWord{"weight-is-f", [](Conventions& c) { c.weight = Conventions::Weight::f; }},
+    ConventionWord{"weight-is-f-cosine",
+                   [](Conventions& c) { c.weight = Conventions::Weight::f_cosine; }},
+    ConventionWord{"weight-unused", [](Conventions& c) { c.weight = Conventions::Weight::unused; }},
+};
+
+constexpr std::string_view kNormal = "normal:";
+
+/// Numbers with commas between; nothing where there is anything else.
+std::optional<std::vector<double>> numbers_of(std::string_view text) {
+  std::vector<double> numbers;
+  for (;;) {
+    double& number = numbers.emplace_back();
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (read.ec != std::errc() || !std::isfinite(number)) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(read.ptr - text.data()));
+    if (text.empty()) return numbers;
+    if (text.front() != ',') return std::nullopt;
+    text.remove_prefix(1);
+  }
+}
+
+/// The frame of a world in which the surface has that normal.
+void put_normal(const std::string& word, Conventions& conventions) {
+  const auto numbers = numbers_of(std::string_view(word).substr(kNormal.size()));
+  if (!numbers || numbers->size() != 3 ||
+      !(std::hypot((*numbers)[0], (*numbers)[1], (*numbers)[2]) > 0)) {
+    throw renderer::InputError("--convention " + word + ": must read normal:X,Y,Z, not all 0");
+  }
+  const double length = std::hypot((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+  conventions.frame = Conventions::Frame::world;
+  for (std::size_t i = 0; i < 3; ++i) conventions.normal[i] = (*numbers)[i] / length;
+}
+
+std::string in_shell_quotes(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string(R"('\'')") : std::string(1, c);
+  return quoted + "'";
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw renderer::InputError(what);
+}
+
+/// For programs that take long: about a tenth of the values. What passes is known less well.
+void put_quick(verify::BsdfOptions& options) {
+  options.random_directions = 0;
+  verify::ContractOptions& contract = options.contract;
+  contract.points /= 10;
+  contract.jacobian_points /= 10;
+  contract.evaluations /= 40;
+  contract.finest_bins /= 16;
+  contract.first_look /= 10;
+  contract.samples /= 4;
+  contract.deviation *= 3;
+  contract.mass_tolerance = 5e-3;
+}
+
+template <class T>
+void complete(std::optional<T>& given, std::optional<T>& from_file) {
+  if (!given) given = std::move(from_file);
+}
+
+}  // namespace
+
+std::vector<std::string> convention_words() {
+  std::vector<std::string> words;
+  for (const ConventionWord& known : kConventions) words.emplace_back(known.word);
+  words.emplace_back("normal:X,Y,Z");
+  return words;
+}
+
+Conventions parse_conventions(const std::vector<std::string>& words) {
+  Conventions conventions;
+  for (const std::string& word : words) {
+    if (word.rfind(kNormal, 0) == 0) {
+      put_normal(word, conventions);
+      continue;
+    }
+    const auto known = std::find_if(kConventions.begin(), kConventions.end(),
+                                    [&](const ConventionWord& w) { return w.word == word; });
+    if (known == kConventions.end()) {
+      throw renderer::InputError(fmt::format("--convention {}: there is no such convention; {}",
+                                             word, renderer::name_hint(word, convention_words())));
+    }
+    known->put(conventions);
+  }
+  return conventions;
+}
+
+std::vector<double> parse_angles(const std::string& text) {
+  if (const auto numbers = numbers_of(text)) return *numbers;
+  throw renderer::InputError("--angles " + text + ": must read like 0,60,80");
+}
+
+Given with_file(Given given, const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw renderer::InputError(path + ": cannot be read");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  try {
+    Given from_file = reports::parse_verify_options(text);
+    complete(given.exec, from_file.exec);
+    complete(given.exchange, from_file.exchange);
+    complete(given.name, from_file.name);
+    complete(given.domain, from_file.domain);
+    complete(given.timeout, from_file.timeout);
+    complete(given.eta, from_file.eta);
+    complete(given.angles, from_file.angles);
+    complete(given.conventions, from_file.conventions);
+    complete(given.faces, from_file.faces);
+    complete(given.reciprocal, from_file.reciprocal);
+    complete(given.conserves_energy, from_file.conserves_energy);
+    complete(given.quick, from_file.quick);
+    complete(given.samples, from_file.samples);
+    complete(given.seed, from_file.seed);
+  } catch (const reports::FormatError& error) {
+    throw renderer::InputError(path + ": " + error.what());
+  }
+  return given;
+}
+
+verify::BsdfOptions bsdf_options(const Given& given) {
+  verify::BsdfOptions options;
+  if (given.conventions) options.conventions = parse_conventions(*given.conventions);
+  if (given.angles) options.angles = *given.angles;
+  for (const double degrees : options.angles) {
+    require(degrees >= 0 && degrees < 90, "angles are degrees from the normal, from 0 to below 90");
+  }
+  const std::string faces = given.faces.value_or("both");
+  require(faces == "both" || faces == "front" || faces == "back",
+          "faces are \"both\", \"front\" or \"back\"");
+  options.front = faces != "back";
+  options.back = faces != "front";
+  options.eta = given.eta.value_or(options.eta);
+  require(std::isfinite(options.eta) && options.eta > 0, "eta must be a positive number");
+  options.reciprocal = given.reciprocal.value_or(options.reciprocal);
+  options.conserves_energy = given.conserves_energy.value_or(options.conserves_energy);
+  verify::ContractOptions& contract = options.contract;
+  if (given.quick.value_or(false)) put_quick(options);
+  contract.samples = given.samples.value_or(contract.samples);
+  require(contract.samples >= 1000, "at least 1000 samples are needed");
+  contract.first_look = std::min(contract.first_look, contract.samples);
+  contract.seed = given.seed.value_or(contract.seed);
+  return options;
+}
+
+std::string replay_command(const Given& given, std::uint64_t seed) {
+  std::string command = "plumbline verify";
+  const auto add = [&](const char* name, const std::optional<std::string>& text) {
+    if (text) command += fmt::format(" --{} {}", name, in_shell_quotes(*text));
+  };
+  add("exec", given.exec);
+  add("exchange", given.exchange);
+  add("name", given.name);
+  add("domain", given.domain);
+  if (given.timeout) command += fmt::format(" --timeout {}", *given.timeout);
+  if (given.eta) command += fmt::format(" --eta {}", *given.eta);
+  if (given.angles) command += fmt::format(" --angles {}", fmt::join(*given.angles, ","));
+  for (const std::string& word : given.conventions.value_or(std::vector<std::string>{})) {
+    command += " --convention " + word;
+  }
+  if (given.faces) command += " --faces " + *given.faces;
+  if (!given.reciprocal.value_or(true)) command += " --not-reciprocal";
+  if (!given.conserves_energy.value_or(true)) command += " --gains-energy";
+  if (given.quick.value_or(false)) command += " --quick";
+  if (given.samples) command += fmt::format(" --samples {}", *given.samples);
+  return command + fmt::format(" --seed {}", seed);
+}
+
+}  // namespace plumbline::tools
