@@ -97,10 +97,7 @@ class Ggx:
         with np.errstate(all="ignore"):
             h = h / np.sqrt(dot(h, h))[:, None]
             visible = self.d(h) * dot(wo, h) / (1 + self.lambda_of(wo)) / wo[:, 2]
-            return np.where(above, visible * self.jacobian(wo, h), 0)
-
-    def jacobian(self, wo, h):
-        return 1 / (4 * dot(wo, h))
+            return np.where(above, visible / (4 * dot(wo, h)), 0)
 
     def eval(self, wo, wi):
         h = wo + wi
@@ -109,13 +106,6 @@ class Ggx:
             h = h / np.sqrt(dot(h, h))[:, None]
             g2 = 1 / (1 + self.lambda_of(wo) + self.lambda_of(wi))
             return np.where(above, self.d(h) * g2 / (4 * wo[:, 2] * wi[:, 2]), 0)
-
-
-class GgxWithoutJacobian(Ggx):
-    """Its pdf is that of half vectors."""
-
-    def jacobian(self, wo, h):
-        return 1.0
 
 
 def check(bsdf, **options):

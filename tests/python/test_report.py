@@ -14,8 +14,8 @@ def test_a_report_in_an_assertion_shows_its_summary():
     with pytest.raises(AssertionError) as caught:
         report = failing()
         assert report.ok, report
-    message = str(caught.value)
-    assert "mean check gives fail, expected pass" in message
+    assert "<Report: <b>mean</b>: mean check gives fail, expected pass>" in str(caught.value)
+    assert "mean check gives fail, expected pass" in str(failing())
     assert str(failing()) == failing().summary()
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from dataclasses import dataclass, fields
-from typing import Any, Optional, TypeVar
+from typing import Any, Deque, Optional, TypeVar
 
 import numpy as np
 from numpy.typing import DTypeLike
@@ -12,6 +13,9 @@ from numpy.typing import DTypeLike
 from . import _core
 
 Options = TypeVar("Options")
+
+OF_TEST: Deque[_core.Report] = deque(maxlen=100)
+"""Reports that the running test of pytest made, for `pytest_plugin`."""
 
 
 @dataclass(frozen=True)
@@ -78,8 +82,9 @@ def needs(**functions: Any) -> None:
 
 
 def repeatable(report: _core.Report) -> _core.Report:
-    """Says how pytest repeats the test that runs, if it does."""
+    """Says how pytest repeats the test that runs, if it does, and remembers the report for it."""
     test = os.environ.get("PYTEST_CURRENT_TEST", "")
     if test:
         report.replay = f"python3 -m pytest '{test.rpartition(' ')[0]}'"
+        OF_TEST.append(report)
     return report

@@ -37,9 +37,10 @@ Parts parts_of(const py::object& answer, const std::string& name) {
 /// A spectrum of more bands than `Channels` holds is thinned out, as that of a C++ record is.
 Channels channels_of(const Values& values, std::size_t row) {
   Channels out;
-  out.count = std::min(values.columns(), Channels::kMost);
+  const std::size_t bands = values.columns();
+  out.count = std::min(bands, Channels::kMost);
   for (std::size_t i = 0; i < out.count; ++i) {
-    out.value[i] = values(row, i * values.columns() / out.count);
+    out.value[i] = values(row, bands == out.count ? i : i * bands / out.count);
   }
   return out;
 }
@@ -59,10 +60,13 @@ py::object Function::call(std::initializer_list<std::span<const Triple>> rows) c
   std::array<py::object, 2> arrays;
   std::size_t given = 0;
   for (const std::span<const Triple> argument : rows) {
-    arrays[given] = to_array(argument, arguments_[given]);
+    arrays[given] = std::exchange(used_[given], {});
+    to_array(argument, arguments_[given], arrays[given]);
     ++given;
   }
-  return given == 1 ? callable_(arrays[0]) : callable_(arrays[0], arrays[1]);
+  py::object answer = given == 1 ? callable_(arrays[0]) : callable_(arrays[0], arrays[1]);
+  used_ = std::move(arrays);
+  return answer;
 }
 
 Source Function::source(std::string_view part) const {

@@ -2,6 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <array>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -46,6 +47,7 @@ class Function {
   std::string name_;
   std::vector<Layout> arguments_;
   Layout answer_;
+  mutable std::array<py::object, 2> used_;  ///< of the last call, for the next
 };
 
 /// As `verify` wants it; empty where Python's is None.

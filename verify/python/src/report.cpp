@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,6 +27,15 @@ using verify::Report;
 std::optional<std::pair<double, double>> interval_of(const CheckResult& r) {
   if (!r.interval) return std::nullopt;
   return std::pair{r.interval->low, r.interval->high};
+}
+
+/// One line, of which pytest shows no more than 240 characters.
+std::string line_of(const Report& report) {
+  const std::string summary = report.summary();
+  const std::size_t first = summary.find('\n');
+  std::string line = "<Report: " + summary.substr(0, first);
+  if (!report.cause.empty()) line += "; " + report.cause;
+  return line + ">";
 }
 
 py::dict figures_of(const CheckResult& r) {
@@ -81,7 +91,7 @@ void bind_report(py::module_& module) {
       .def("append", &Report::append, py::arg("other"))
       .def("summary", &Report::summary)
       .def("__str__", &Report::summary)
-      .def("__repr__", &Report::summary);
+      .def("__repr__", &line_of);
 }
 
 py::array_t<double> map_of(const ImageResult& r) {

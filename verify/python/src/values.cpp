@@ -1,7 +1,6 @@
 #include "values.h"
 
 #include <cstdint>
-#include <cstring>
 
 namespace plumbline::python {
 
@@ -25,17 +24,40 @@ py::array as_array(const py::object& object, const Source& source) {
   return array;
 }
 
+// py::object where there may be none: a py::array that is made by default is an array.
+
+// Rows from which on an array comes from the system, page by page.
+constexpr std::size_t kLarge = 4096;
+
+/// Whether an array can be filled again: nobody holds it, or a view of it, and it is as it was
+/// made.
 template <class T>
-py::array filled(std::span<const Triple> rows, const Layout& layout) {
-  const auto n = static_cast<py::ssize_t>(rows.size());
+bool is_free(const py::object& object, std::size_t rows, const Layout& layout) {
+  if (!object || object.ref_count() != 1) return false;
+  if (!py::isinstance<py::array_t<T, py::array::c_style>>(object)) return false;
+  const auto array = py::reinterpret_borrow<py::array>(object);
+  return array.writeable() && array.ndim() == (layout.flat ? 1 : 2) &&
+         array.shape(0) == static_cast<py::ssize_t>(rows) &&
+         (layout.flat || array.shape(1) == layout.columns);
+}
+
+template <class T>
+py::array_t<T> fresh(std::size_t rows, const Layout& layout) {
+  const auto n = static_cast<py::ssize_t>(rows);
+  if (layout.flat) return py::array_t<T>(n);
+  return py::array_t<T>({n, py::ssize_t{layout.columns}});
+}
+
+template <class T>
+void fill(std::span<const Triple> rows, const Layout& layout, py::object& object) {
+  if (rows.size() < kLarge || !is_free<T>(object, rows.size(), layout)) {
+    object = fresh<T>(rows.size(), layout);
+  }
+  T* out = static_cast<T*>(py::reinterpret_borrow<py::array>(object).mutable_data());
   const auto columns = static_cast<std::size_t>(layout.columns);
-  py::array_t<T> array =
-      layout.flat ? py::array_t<T>(n) : py::array_t<T>({n, py::ssize_t{layout.columns}});
-  T* out = array.mutable_data();
   for (const Triple& row : rows) {
     for (std::size_t c = 0; c < columns; ++c) *out++ = static_cast<T>(row[c]);
   }
-  return array;
 }
 
 bool in_native_order(const py::dtype& type) {
@@ -44,21 +66,15 @@ bool in_native_order(const py::dtype& type) {
 
 }  // namespace
 
-std::string Layout::shape(std::size_t n) const {
-  const std::string count = std::to_string(n);
-  return flat ? "(" + count + ",)" : "(" + count + ", " + std::to_string(columns) + ")";
-}
-
-py::array to_array(std::span<const Triple> rows, const Layout& layout) {
+void to_array(std::span<const Triple> rows, const Layout& layout, py::object& array) {
   switch (layout.number) {
     case Number::float32:
-      return filled<float>(rows, layout);
+      return fill<float>(rows, layout, array);
     case Number::int64:
-      return filled<std::int64_t>(rows, layout);
+      return fill<std::int64_t>(rows, layout, array);
     case Number::float64:
-      break;
+      return fill<double>(rows, layout, array);
   }
-  return filled<double>(rows, layout);
 }
 
 Values::Values(const py::object& object, const Source& source, std::size_t rows, Rows kind,
@@ -104,20 +120,6 @@ void Values::check_numbers(const Source& source) {
   if (!single_ && !as_it_is) array_ = py::array_t<double, py::array::forcecast>::ensure(array_);
 }
 
-double Values::operator()(std::size_t row, std::size_t column) const {
-  const char* at = data_ + static_cast<py::ssize_t>(row) * row_stride_ +
-                   static_cast<py::ssize_t>(column) * column_stride_;
-  // Copied, because NumPy's arrays need not be aligned.
-  if (single_) {
-    float value;
-    std::memcpy(&value, at, sizeof value);
-    return static_cast<double>(value);
-  }
-  double value;
-  std::memcpy(&value, at, sizeof value);
-  return value;
-}
-
 Flags::Flags(const py::object& object, const Source& source, std::size_t rows)
     : array_(as_array(object, source)) {
   if (array_.dtype().kind() != 'b') {
@@ -127,11 +129,8 @@ Flags::Flags(const py::object& object, const Source& source, std::size_t rows)
     refuse(source.name() + " has shape " + shape_of(array_) + ", wanted (" + std::to_string(rows) +
            ",)");
   }
-}
-
-bool Flags::operator[](std::size_t row) const {
-  return static_cast<const char*>(
-             array_.data())[static_cast<py::ssize_t>(row) * array_.strides(0)] != 0;
+  data_ = static_cast<const char*>(array_.data());
+  stride_ = array_.strides(0);
 }
 
 }  // namespace plumbline::python

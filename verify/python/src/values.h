@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,13 +24,11 @@ struct Layout {
   int columns = 3;    ///< of the triples, the first ones
   bool flat = false;  ///< shape (n,) instead of (n, 1)
   Number number = Number::float64;
-
-  /// Of n rows, as Python writes it: "(65536, 3)".
-  std::string shape(std::size_t n) const;
 };
 
-/// A new array. Python may keep it.
-py::array to_array(std::span<const Triple> rows, const Layout& layout);
+/// Puts rows into an array that is large and that nobody else holds, if `array` is such a one, or
+/// into a new one: fresh pages cost more than all else. Python may keep it.
+void to_array(std::span<const Triple> rows, const Layout& layout, py::object& array);
 
 /// What an array is: "weight returned by sample". Put together only where it is wrong.
 struct Source {
@@ -56,9 +55,21 @@ class Values {
 
   std::size_t columns() const { return columns_; }
 
-  double operator()(std::size_t row, std::size_t column = 0) const;
+  double operator()(std::size_t row, std::size_t column = 0) const {
+    const char* at = data_ + static_cast<py::ssize_t>(row) * row_stride_ +
+                     static_cast<py::ssize_t>(column) * column_stride_;
+    return single_ ? static_cast<double>(read<float>(at)) : read<double>(at);
+  }
 
  private:
+  /// NumPy's arrays need not be aligned.
+  template <class T>
+  static T read(const char* at) {
+    T value;
+    std::memcpy(&value, at, sizeof value);
+    return value;
+  }
+
   void check_shape(const Source& source, std::size_t rows, Rows kind, std::size_t columns);
   void check_numbers(const Source& source);
 
@@ -75,10 +86,14 @@ class Flags {
   /// @throws py::value_error unless it is an array of bool of shape (rows,)
   Flags(const py::object& object, const Source& source, std::size_t rows);
 
-  bool operator[](std::size_t row) const;
+  bool operator[](std::size_t row) const {
+    return data_[static_cast<py::ssize_t>(row) * stride_] != 0;
+  }
 
  private:
   py::array array_;
+  const char* data_ = nullptr;
+  py::ssize_t stride_ = 0;
 };
 
 }  // namespace plumbline::python

@@ -1,0 +1,20 @@
+import plumbline
+from diffuse import Diffuse
+
+
+def test_samples_what_its_pdf_says():
+    bsdf = Diffuse()
+    report = plumbline.check_bsdf(
+        "diffuse",
+        sample=bsdf.sample,
+        pdf=bsdf.pdf,
+        eval=bsdf.eval,
+        frame="y-up",
+        cosine_in_eval=True,
+        weight="f-cosine",
+        zero_pdf_is_failure=True,
+        back=False,  # black from below
+        angles=[40],  # degrees
+        random_directions=0,
+    )
+    assert report.ok, report
