@@ -16,7 +16,7 @@ from ._core import CheckResult, Domain, ImageResult, Report
 from ._effort import Effort
 from ._estimates import check_agreement, check_mean, check_proportion, check_variance_ratio
 from ._html import html_of_report
-from ._image import Image, ImageReport, check_image, read_exr
+from ._image import Image, ImageReport, check_image
 from ._pair import PairLobe, check_pair
 from ._samples import Samples
 
@@ -40,5 +40,4 @@ __all__ = [
     "check_pair",
     "check_proportion",
     "check_variance_ratio",
-    "read_exr",
 ]

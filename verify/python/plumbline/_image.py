@@ -1,10 +1,9 @@
-"""Images: arrays, or EXR files where a Python package reads them."""
+"""Images."""
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
-from typing import Any, Dict, List, Optional, Sequence, Union
+from typing import List, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -57,53 +56,12 @@ def _layer(layer: Optional[ArrayLike], mean: NDArray, name: str) -> Optional[NDA
     return np.broadcast_to(array, mean.shape)
 
 
-def read_exr(path: Union[str, "os.PathLike[str]"]) -> Image:
-    """An image file with Plumbline's layers: R, G, B (or Y), and if it has them variance.R … and count.
-
-    Needs the Python package OpenEXR (Debian: python3-openexr).
-
-    Raises:
-        ImportError: without that package.
-        ValueError: for a file without R, G, B or Y.
-    """
-    import OpenEXR
-
-    layers = _exr_layers(OpenEXR.InputFile(os.fspath(path)))
-    colours = [c for c in ("R", "G", "B") if c in layers] or [c for c in ("Y",) if c in layers]
-    if not colours:
-        raise ValueError(f"{os.fspath(path)} has no layers R, G, B or Y, only {sorted(layers)}")
-    mean = np.stack([layers[c] for c in colours], axis=-1)
-    names = [f"variance.{c}" for c in colours]
-    if "count" not in layers or not all(name in layers for name in names):
-        return Image(mean)
-    return Image(mean, np.stack([layers[name] for name in names], axis=-1), layers["count"])
-
-
-def _exr_layers(file: Any) -> Dict[str, NDArray]:
-    """All layers of an open file, in float32."""
-    import Imath
-
-    header = file.header()
-    window = header["dataWindow"]
-    shape = (window.max.y - window.min.y + 1, window.max.x - window.min.x + 1)
-    names: Sequence[str] = list(header["channels"])
-    kind = Imath.PixelType(Imath.PixelType.FLOAT)
-    return {
-        name: np.frombuffer(file.channel(name, kind), dtype=np.float32).reshape(shape)
-        for name in names
-    }
-
-
-ImageLike = Union[Image, ArrayLike, str, "os.PathLike[str]"]
-"""An :class:`Image`, its mean alone, or the path of an EXR file."""
+ImageLike = Union[Image, ArrayLike]
+"""An :class:`Image`, or its mean alone."""
 
 
 def _image(image: ImageLike) -> Image:
-    if isinstance(image, Image):
-        return image
-    if isinstance(image, (str, os.PathLike)):
-        return read_exr(image)
-    return Image(image)
+    return image if isinstance(image, Image) else Image(image)
 
 
 def check_image(
@@ -124,8 +82,7 @@ def check_image(
     one it is estimated from the residuals in each tile, and single pixels are not judged.
 
     Args:
-        image: an :class:`Image`, its mean (height, width) or (height, width, channels), or the path
-            of an EXR file (:func:`read_exr`).
+        image: an :class:`Image`, or its mean (height, width) or (height, width, channels).
         reference: the same; without a variance it is exact, averaged over each pixel's footprint.
         tolerance: bias of the global mean that a pass allows, relative to the reference's mean.
         name: of the results; with several channels ``name/channel``.
