@@ -205,7 +205,7 @@ struct TranslatedSample {
     const Vec3 given = to->given(wo);
     Record record = theirs(given, u);
     const double p = to->wants_density(record) ? to->in_their_order(density, given, record->x) : 0;
-    return to->record(std::move(record), p);
+    return to->record(record, p);
   }
 
   void operator()(std::span<const Vec3> wo, std::span<const Uniforms> u,
@@ -223,7 +223,7 @@ struct TranslatedSample {
     std::size_t next = 0;
     for (Record& record : out) {
       const double at_record = to->wants_density(record) ? p[next++] : 0;
-      record = to->record(std::move(record), at_record);
+      record = to->record(record, at_record);
     }
   }
 };
@@ -238,7 +238,7 @@ struct TranslatedDraw {
     const Vec3 given = to->given(wo);
     Record record = theirs(given, random);
     const double p = to->wants_density(record) ? to->in_their_order(density, given, record->x) : 0;
-    return to->record(std::move(record), p);
+    return to->record(record, p);
   }
 };
 
