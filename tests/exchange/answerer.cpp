@@ -146,7 +146,7 @@ class Program {
     write_text(npy_header(header));
     std::size_t bytes = values.size() * sizeof(V);
     if (badly && mode_ == "midway") bytes /= 2;
-    std::fwrite(values.data(), 1, bytes, stdout);
+    if (bytes > 0) std::fwrite(values.data(), 1, bytes, stdout);
     if (badly && mode_ == "midway") {
       std::fflush(stdout);
       hang();
