@@ -10,7 +10,6 @@
 #include <plumbline/verify/detail/erase_bsdf.h>
 
 #include "pairs/batches.h"
-#include "pairs/uniforms.h"
 #include "vec3.h"
 
 namespace plumbline::verify {
@@ -269,9 +268,5 @@ ErasedBsdf apply_conventions(ErasedBsdf bsdf, const BsdfConventions& conventions
 }
 
 double ErasedBsdf::cosine_of(const Vec3& w) const { return cosine_at(w, cosine); }
-
-std::optional<SampleRecord> ErasedBsdf::next(const Vec3& wo, Random& random) const {
-  return draw ? draw(wo, random) : sample(wo, draw_uniforms(random, numbers, epsilon));
-}
 
 }  // namespace plumbline::verify

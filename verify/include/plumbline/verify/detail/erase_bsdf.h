@@ -94,9 +94,6 @@ struct ErasedBsdf {
 
   /// |cosθ| of a direction.
   double cosine_of(const Vec3& w) const;
-
-  /// One sample from the generator, by whichever of `sample` and `draw` there is.
-  std::optional<SampleRecord> next(const Vec3& wo, Random& random) const;
 };
 
 /// Brings a BSDF from its author's conventions to Plumbline's.
