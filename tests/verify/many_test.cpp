@@ -99,6 +99,22 @@ TEST(Batches, AskForManyValuesAtOnce) {
   EXPECT_LT(asked.calls, asked.values / 100);
 }
 
+/// No factor that is known explains it: a diagnosis tries all that it has.
+ErasedBsdf faulty_mirror() {
+  ErasedBsdf bsdf = erased(RoughMirror{0.3});
+  bsdf.pdf = [right = bsdf.pdf](const Vec3& wo, const Vec3& wi) {
+    return right(wo, wi) * (0.7 + 0.3 * wi[2]);
+  };
+  return bsdf;
+}
+
+TEST(Batches, ADiagnosisAsksForManyValuesAtOnce) {
+  Asked asked;
+  const Report report = check_bsdf("mirror", in_spans(faulty_mirror(), asked), few_directions());
+  EXPECT_FALSE(report.ok());
+  EXPECT_LT(asked.calls, asked.values / 50);
+}
+
 TEST(Batches, GiveTheReportThatOneByOneGives) {
   BsdfConventions conventions;
   conventions.frame = BsdfConventions::Frame::local_y_up;

@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "diagnosis/ask.h"
+#include "pairs/batches.h"
 #include "streams.h"
 #include "text.h"
 
@@ -24,24 +30,63 @@ std::vector<std::unique_ptr<PartMap>> maps_of(const SamplingPair& pair, const Pa
   return maps;
 }
 
-/// @param probability  of the part, given the numbers that lead there
-template <class Probability>
-bool add_part(Equation& e, const std::optional<std::vector<WayThere>>& ways,
-              const Probability& probability) {
-  if (!ways) return false;
+/// @param probabilities  of the part, for each way's numbers
+/// @param alone          the same where no way leads there
+void add_part(Equation& e, const Ways& ways, std::span<const double> probabilities, double alone) {
+  if (!ways) return;
   PartThere there;
   double chosen = 0;
-  for (const WayThere& way : *ways) {
+  for (std::size_t i = 0; i < ways->size(); ++i) {
+    const WayThere& way = (*ways)[i];
     const double q = way.density.value / e.pdf;
     there.q += q;
-    chosen += q * probability(way.u);
+    chosen += q * probabilities[i];
     e.error = std::max(e.error, way.density.relative_error);
   }
-  there.probability = there.q > 0 ? chosen / there.q : probability({0.5, 0.5, 0.5});
+  there.probability = there.q > 0 ? chosen / there.q : alone;
   if (ways->size() == 1) there.u = ways->front().u;
   e.parts.push_back(there);
-  return true;
 }
+
+/// Points that a part leads to, where pdf() is not 0, without their parts.
+struct Points {
+  std::vector<Uniforms> u;
+  std::vector<Equation> equations;
+
+  Points(const SamplingPair& pair, const Map& part, const std::vector<Uniforms>& tried) {
+    const std::vector<Record> samples = ask(part, tried);
+    std::vector<Vec3> x;
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      if (!has_density(samples[i])) continue;
+      u.push_back(tried[i]);
+      x.push_back(samples[i]->x);
+    }
+    const std::vector<double> pdfs = ask(pair.pdf, x);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!(pdfs[i] > 0)) continue;
+      u[kept++] = u[i];
+      equations.push_back({x[i], pdfs[i], {}, 0});
+    }
+    u.resize(kept);
+  }
+
+  /// @param known  the numbers belong to the part searched
+  std::vector<BranchSearch::Target> targets(bool known) const {
+    std::vector<BranchSearch::Target> all;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      all.push_back({equations[i].x, known ? std::optional(u[i]) : std::nullopt});
+    }
+    return all;
+  }
+
+  /// Those that are known of all parts.
+  void add_complete(std::size_t parts, std::vector<Equation>& out) {
+    for (Equation& e : equations) {
+      if (e.parts.size() == parts) out.push_back(std::move(e));
+    }
+  }
+};
 
 }  // namespace
 
@@ -72,20 +117,18 @@ void Apart::add_points_of_parts() {
   const std::size_t points =
       std::clamp(kMostPoints / maps_.size(), kPointsPerPart / 2, kPointsPerPart);
   for (std::size_t of = 0; of < maps_.size(); ++of) {
-    for (std::size_t i = 0; i < points; ++i) {
-      const Uniforms u = maps_[of]->draw(random);
-      const auto s = maps_[of]->map()(u);
-      if (!has_density(s)) continue;
-      Equation e{s->x, pair.pdf(s->x), {}, 0};
-      if (!(e.pdf > 0)) continue;
-      for (std::size_t k = 0; k < maps_.size(); ++k) {
-        const auto known = k == of ? std::optional(u) : std::nullopt;
-        const double share = parts_.share(k);
-        if (!add_part(e, maps_[k]->ways(s->x, known), [share](const Uniforms&) { return share; }))
-          break;
+    std::vector<Uniforms> tried;
+    while (tried.size() < points) tried.push_back(maps_[of]->draw(random));
+    Points there(pair, maps_[of]->map(), tried);
+    for (std::size_t k = 0; k < maps_.size(); ++k) {
+      const auto ways = maps_[k]->ways(there.targets(k == of));
+      const double share = parts_.share(k);
+      for (std::size_t i = 0; i < ways.size(); ++i) {
+        const std::vector<double> shares(ways[i] ? ways[i]->size() : 0, share);
+        add_part(there.equations[i], ways[i], shares, share);
       }
-      if (e.parts.size() == maps_.size()) equations_.push_back(std::move(e));
     }
+    there.add_complete(maps_.size(), equations_);
   }
 }
 
@@ -96,20 +139,32 @@ void Apart::add_points_of_two_ways() {
                                    {two_ways_->way(1), pair.domain.dimension(), pair.epsilon}};
   constexpr double kSeldom = 1e-4;
   for (std::size_t of = 0; of < 2; ++of) {
+    std::vector<Uniforms> tried;
     for (std::size_t i = 0; i < kPointsPerPart; ++i) {
-      const Uniforms u{random.uniform(), pair.domain.dimension() > 1 ? random.uniform() : 0, 0};
-      const auto s = two_ways_->way(of)(u);
-      if (!has_density(s) || two_ways_->probability(of, u) < kSeldom) continue;
-      Equation e{s->x, pair.pdf(s->x), {}, 0};
-      if (!(e.pdf > 0)) continue;
-      for (std::size_t k = 0; k < 2; ++k) {
-        const auto known = k == of ? std::optional(u) : std::nullopt;
-        if (!add_part(e, ways_to(searches[k], two_ways_->way(k), pair, s->x, known),
-                      [&](const Uniforms& at) { return two_ways_->probability(k, at); }))
-          break;
-      }
-      if (e.parts.size() == 2) equations_.push_back(std::move(e));
+      tried.push_back({random.uniform(), pair.domain.dimension() > 1 ? random.uniform() : 0, 0});
     }
+    const std::vector<double> likely = two_ways_->probabilities(of, tried);
+    std::vector<Uniforms> often;
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      if (likely[i] >= kSeldom) often.push_back(tried[i]);
+    }
+    Points there(pair, two_ways_->way(of), often);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto ways = ways_to(searches[k], two_ways_->way(k), pair, there.targets(k == of));
+      std::vector<Uniforms> lead{{0.5, 0.5, 0.5}};
+      for (const Ways& of_point : ways) {
+        for (const WayThere& way : of_point.value_or(std::vector<WayThere>{})) {
+          lead.push_back(way.u);
+        }
+      }
+      const std::vector<double> probabilities = two_ways_->probabilities(k, lead);
+      std::span<const double> left = std::span(probabilities).subspan(1);
+      for (std::size_t i = 0; i < ways.size(); ++i) {
+        add_part(there.equations[i], ways[i], left, probabilities.front());
+        if (ways[i]) left = left.subspan(ways[i]->size());
+      }
+    }
+    there.add_complete(2, equations_);
   }
 }
 
@@ -162,25 +217,31 @@ std::optional<std::vector<ExactPoint>> Apart::densities_of(const std::vector<boo
 
 Apart::Excess Apart::excess_of(const std::vector<bool>& chosen, const Prediction& times,
                                std::span<const double> numbers) const {
-  constexpr int kSamples = 4000;
+  constexpr std::size_t kSamples = 4000;
   Random random = random_for(Stream::part_accepted);
   Excess all;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     if (!chosen[k]) continue;
     double sum = 0, squares = 0;
-    for (int i = 0; i < kSamples; ++i) {
-      const Uniforms u{random.uniform(), random.uniform(), 0};
-      const auto s = fixed() ? maps_[k]->map()(u) : two_ways_->way(k)(u);
+    std::vector<Uniforms> numbers_of_samples(kSamples);
+    for (Uniforms& u : numbers_of_samples) u = {random.uniform(), random.uniform(), 0};
+    const std::vector<Record> samples =
+        ask(fixed() ? maps_[k]->map() : two_ways_->way(k), numbers_of_samples);
+    const std::vector<double> probabilities = fixed()
+                                                  ? std::vector<double>(kSamples, parts_.share(k))
+                                                  : two_ways_->probabilities(k, numbers_of_samples);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Uniforms& u = numbers_of_samples[i];
+      const Record& s = samples[i];
       if (!has_density(s)) continue;
       const double factor = times({&view_, view_.wo.value_or(Vec3{}), s->x, 1, &u}, numbers);
-      const double probability = fixed() ? parts_.share(k) : two_ways_->probability(k, u);
       // Where a factor is next to 0, few samples carry the sum.
-      const double term = factor > 0 ? probability * (1 / factor - 1) : 0;
+      const double term = factor > 0 ? probabilities[i] * (1 / factor - 1) : 0;
       sum += term;
       squares += term * term;
     }
-    all.value += sum / kSamples;
-    all.error = std::hypot(all.error, std::sqrt(squares) / kSamples);
+    all.value += sum / double{kSamples};
+    all.error = std::hypot(all.error, std::sqrt(squares) / double{kSamples});
   }
   return all;
 }

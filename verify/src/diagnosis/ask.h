@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "diagnosis/evidence.h"
+#include "pairs/batches.h"
 #include "streams.h"
 
 /// The questions that a diagnosis asks of code under test.
@@ -24,29 +26,33 @@ inline bool has_wo(const ViewEvidence& view) { return view.wo.has_value(); }
 
 inline double pdf_at(const ViewEvidence& view, const Vec3& x) { return view.pair->pdf(x); }
 
+inline std::vector<double> pdfs_at(const ViewEvidence& view, const std::vector<Vec3>& x) {
+  return ask(view.pair->pdf, x);
+}
+
 inline double pdf_at(const ViewEvidence& view, const Vec3& wo, const Vec3& wi) {
   return view.bsdf->pdf(wo, wi);
 }
 
+inline double brightest(const Channels& c) {
+  return c.count > 0 ? *std::max_element(c.value.begin(), c.value.begin() + c.count) : 0.0;
+}
+
 /// Brightest channel of f·|cosθ|.
 inline double value_at(const ViewEvidence& view, const Vec3& x) {
-  if (!view.pair->value) return 0;
-  const Channels c = view.pair->value(x);
-  return c.count > 0 ? *std::max_element(c.value.begin(), c.value.begin() + c.count) : 0.0;
+  return view.pair->value ? brightest(view.pair->value(x)) : 0;
+}
+
+inline std::vector<double> values_at(const ViewEvidence& view, const std::vector<Vec3>& x) {
+  std::vector<double> values(x.size());
+  if (!view.pair->value) return values;
+  const std::vector<Channels> channels = ask(view.pair->value, x);
+  std::transform(channels.begin(), channels.end(), values.begin(), brightest);
+  return values;
 }
 
 inline double f_at(const ViewEvidence& view, const Vec3& wo, const Vec3& wi) {
-  const Channels c = view.bsdf->eval(wo, wi);
-  return c.count > 0 ? *std::max_element(c.value.begin(), c.value.begin() + c.count) : 0.0;
-}
-
-inline bool is_finite(const Vec3& x) {
-  return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
-}
-
-/// A sample that is neither rejected nor an atom, nor at a point that is none.
-inline bool has_density(const std::optional<SampleRecord>& sample) {
-  return sample && sample->mass == 0 && is_finite(sample->x);
+  return brightest(view.bsdf->eval(wo, wi));
 }
 
 /// A few views, failing ones first: they show what went wrong.
@@ -61,14 +67,30 @@ inline std::vector<const ViewEvidence*> views_to_ask(const ReportEvidence& evide
   return views;
 }
 
-inline std::vector<SampleRecord> draw_samples(const ViewEvidence& view, int count) {
+/// The next samples, rejected ones among them.
+inline std::vector<Record> draw_records(const ViewEvidence& view, Random& random,
+                                        std::size_t count) {
+  std::vector<Record> records(count);
+  view.pair->next(random, records);
+  return records;
+}
+
+inline std::vector<SampleRecord> draw_samples(const ViewEvidence& view, std::size_t count) {
   Random random = random_for(Stream::asked);
   std::vector<SampleRecord> samples;
-  for (int i = 0; i < count; ++i) {
-    const auto s = view.pair->next(random);
+  for (const Record& s : draw_records(view, random, count)) {
     if (s && is_finite(s->x)) samples.push_back(*s);
   }
   return samples;
+}
+
+/// Where samples with a density lie.
+inline std::vector<Vec3> points_of_density(const std::vector<Record>& records) {
+  std::vector<Vec3> points;
+  for (const Record& s : records) {
+    if (has_density(s)) points.push_back(s->x);
+  }
+  return points;
 }
 
 }  // namespace plumbline::verify

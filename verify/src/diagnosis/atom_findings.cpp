@@ -11,7 +11,7 @@
 namespace plumbline::verify {
 
 std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence) {
-  constexpr int kSamples = 1024;
+  constexpr std::size_t kSamples = 1024;
   for (const ViewEvidence* v : views_to_ask(evidence)) {
     double atoms = 0, points = 0;
     for (const SampleRecord& s : draw_samples(*v, kSamples)) {
@@ -33,7 +33,7 @@ std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence) {
 }
 
 std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence) {
-  constexpr int kSamples = 20'000;
+  constexpr std::size_t kSamples = 20'000;
   constexpr double kSame = 1e-4, kCertain = 7;
   constexpr std::size_t kMostAtoms = 7;
   struct Seen {
@@ -44,9 +44,8 @@ std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence) 
     if (!v.failed || v.pair->domain.dimension() == 0) continue;
     std::vector<Seen> atoms;
     Random random = random_for(Stream::atom_shares);
-    for (int i = 0; i < kSamples && atoms.size() <= kMostAtoms; ++i) {
-      const auto s = v.pair->next(random);
-      if (!s || !(s->mass > 0) || !is_finite(s->x)) continue;
+    for (const Record& s : draw_records(v, random, kSamples)) {
+      if (!s || !(s->mass > 0) || !is_finite(s->x) || atoms.size() > kMostAtoms) continue;
       const auto same = std::find_if(atoms.begin(), atoms.end(), [&s](const Seen& a) {
         return length(sum(a.x, scaled(s->x, -1))) < kSame && std::abs(a.mass - s->mass) < kSame;
       });
@@ -59,7 +58,7 @@ std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence) 
     if (atoms.size() > kMostAtoms) continue;  // far too many, and not all draws were looked at
     const auto pull = [](const Seen& a, double mass) {
       const double p = std::clamp(mass, 0.0, 1.0);
-      return (a.count - kSamples * mass) / std::sqrt(kSamples * p * (1 - p) + 1);
+      return (a.count - double{kSamples} * mass) / std::sqrt(double{kSamples} * p * (1 - p) + 1);
     };
     for (const Seen& a : atoms) {
       if (!(std::abs(pull(a, a.mass)) > kCertain)) continue;
@@ -70,11 +69,11 @@ std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence) 
         return Finding{CauseKind::lobe_probability,
                        "the masses of the two atoms are exchanged: " + number(a.mass) +
                            " is stated by the one that is chosen with probability " +
-                           number(std::round(1e4 * a.count / kSamples) / 1e4)};
+                           number(std::round(1e4 * a.count / double{kSamples}) / 1e4)};
       }
       return Finding{CauseKind::atom_as_density,
                      "an atom states a mass of " + number(a.mass) + ", but " +
-                         number(std::round(1e3 * a.count / kSamples) / 10) +
+                         number(std::round(1e3 * a.count / double{kSamples}) / 10) +
                          " % of the samples are drawn there"};
     }
   }

@@ -63,7 +63,7 @@ bool is_unknown_to_pdf(const ViewEvidence& view, const std::vector<SampleRecord>
 }  // namespace
 
 std::optional<Finding> find_samples_near_a_line(const ReportEvidence& evidence) {
-  constexpr int kSamples = 10'000;
+  constexpr std::size_t kSamples = 10'000;
   constexpr double kHorizon = 0.05;
   for (const ViewEvidence* v : views_to_ask(evidence)) {
     if (!v->failed || !has_wo(*v) || !v->pair->domain.directions()) continue;
@@ -103,10 +103,12 @@ std::optional<Finding> find_negative_density(const ReportEvidence& evidence) {
     if (!v->failed || v->pair->domain.dimension() == 0) continue;
     const Chart& chart = v->pair->domain.chart();
     double negative = 0, least = 0, most = 0;
+    std::vector<Vec3> points;
     for (int i = 0; i < kPerSide * kPerSide; ++i) {
       const int column = i % kPerSide, row = i / kPerSide;
-      const Point2 p{(column + 0.5) / kPerSide, (row + 0.5) / kPerSide};
-      const double pdf = pdf_at(*v, chart.from_square(p));
+      points.push_back(chart.from_square({(column + 0.5) / kPerSide, (row + 0.5) / kPerSide}));
+    }
+    for (const double pdf : pdfs_at(*v, points)) {
       if (!std::isfinite(pdf)) continue;
       negative += pdf < 0 ? 1 : 0;
       least = std::min(least, pdf);

@@ -122,7 +122,7 @@ Vec3 most_frequent_point(const std::vector<SampleRecord>& samples) {
 /// Samples around the point where most of them lie have cosines to it that are 1 − k 2⁻²⁴ for whole
 /// numbers k: their cosine was a float before it became a direction.
 bool steps_of_rounding(const ViewEvidence& view) {
-  constexpr int kSamples = 8192;
+  constexpr std::size_t kSamples = 8192;
   constexpr double kStep = 0x1p-24, kWhole = 0.1, kMostSteps = 4096;
   if (!view.pair->domain.directions()) return false;
   const auto samples = draw_samples(view, kSamples);
@@ -141,7 +141,8 @@ bool steps_of_rounding(const ViewEvidence& view) {
 }
 
 /// Coordinates of samples, atoms apart, in which each that is drawn at random varies.
-std::array<std::vector<double>, 3> coordinates_of_samples(const ViewEvidence& view, int count) {
+std::array<std::vector<double>, 3> coordinates_of_samples(const ViewEvidence& view,
+                                                          std::size_t count) {
   const Domain& domain = view.pair->domain;
   std::array<std::vector<double>, 3> coordinates;
   for (const SampleRecord& s : draw_samples(view, count)) {
@@ -161,7 +162,7 @@ std::array<std::vector<double>, 3> coordinates_of_samples(const ViewEvidence& vi
 
 /// Many samples in one point state another density than pdf() does there: an atom's, made up.
 std::optional<Finding> of_made_up_density(const ViewEvidence& view, const std::string& where) {
-  constexpr int kSamples = 4096;
+  constexpr std::size_t kSamples = 4096;
   constexpr double kOther = 0.01;
   const auto samples = draw_samples(view, kSamples);
   const Vec3 most = most_frequent_point(samples);
@@ -179,7 +180,7 @@ std::optional<Finding> of_made_up_density(const ViewEvidence& view, const std::s
 }  // namespace
 
 std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
-  constexpr int kSamples = 8192;
+  constexpr std::size_t kSamples = 8192;
   for (const ViewEvidence* v : views_to_ask(evidence)) {
     if (v->pair->domain.dimension() == 0) continue;
     const auto names =
@@ -271,33 +272,35 @@ std::optional<Finding> find_rounded_cap(const ReportEvidence& evidence) {
 }
 
 std::optional<Finding> find_not_finite(const ReportEvidence& evidence) {
-  constexpr int kSamples = 4096;
+  constexpr std::size_t kSamples = 4096;
   const auto bad = [](double x) { return !std::isfinite(x) || x < 0; };
   for (const ViewEvidence* v : views_to_ask(evidence)) {
     Random random = random_for(Stream::asked);
-    for (int i = 0; i < kSamples; ++i) {
-      const auto s = v->pair->next(random);
-      if (s && !is_finite(s->x)) {
+    const std::vector<Record> samples = draw_records(*v, random, kSamples);
+    std::vector<Vec3> points;
+    for (const Record& s : samples) {
+      if (!s) continue;
+      if (!is_finite(s->x)) {
         return Finding{CauseKind::not_finite, "a sampled point is not finite"};
       }
-      Vec3 x = s ? s->x : Vec3{};
-      for (int k = 0; k < 2; ++k) {
-        if (k == 1 || !s || s->mass > 0) {
-          if (v->pair->domain.dimension() == 0) break;
-          x = v->pair->domain.chart().from_square({random.uniform(), random.uniform()});
-        }
-        const double pdf = pdf_at(*v, x);
-        if (bad(pdf)) {
-          return Finding{CauseKind::not_finite, "pdf() is " + number(pdf) + " at (" + number(x[0]) +
-                                                    ", " + number(x[1]) + ", " + number(x[2]) +
-                                                    ")"};
-        }
-        if (const double f = value_at(*v, x); !std::isfinite(f)) {
-          return Finding{CauseKind::not_finite, "f is " + number(f) + " at (" + number(x[0]) +
-                                                    ", " + number(x[1]) + ", " + number(x[2]) +
-                                                    ")"};
-        }
+      if (!(s->mass > 0)) points.push_back(s->x);
+    }
+    for (std::size_t i = 0; i < kSamples && v->pair->domain.dimension() > 0; ++i) {
+      points.push_back(v->pair->domain.chart().from_square({random.uniform(), random.uniform()}));
+    }
+    const std::vector<double> pdfs = pdfs_at(*v, points), values = values_at(*v, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3& x = points[i];
+      const std::string at =
+          " at (" + number(x[0]) + ", " + number(x[1]) + ", " + number(x[2]) + ")";
+      if (bad(pdfs[i])) {
+        return Finding{CauseKind::not_finite, "pdf() is " + number(pdfs[i]) + at};
       }
+      if (!std::isfinite(values[i])) {
+        return Finding{CauseKind::not_finite, "f is " + number(values[i]) + at};
+      }
+    }
+    for (const Record& s : samples) {
       if (s && s->weight.count > 0 && !std::isfinite(s->weight[0])) {
         return Finding{CauseKind::not_finite, "a weight is " + number(s->weight[0])};
       }
@@ -307,18 +310,17 @@ std::optional<Finding> find_not_finite(const ReportEvidence& evidence) {
 }
 
 std::optional<Finding> find_points_not_finite(const ReportEvidence& evidence) {
-  constexpr int kSamples = 512;
+  constexpr std::size_t kSamples = 512;
   constexpr double kMany = 0.05;
   for (const ViewEvidence& v : evidence.views) {
     if (!v.failed) continue;
     Random random = random_for(Stream::asked);
     double bad = 0;
-    for (int i = 0; i < kSamples; ++i) {
-      const auto s = v.pair->next(random);
+    for (const Record& s : draw_records(v, random, kSamples)) {
       bad += s && !is_finite(s->x) ? 1 : 0;
     }
-    if (bad > kMany * kSamples) {
-      return Finding{CauseKind::not_finite, number(std::round(100 * bad / kSamples)) +
+    if (bad > kMany * double{kSamples}) {
+      return Finding{CauseKind::not_finite, number(std::round(100 * bad / double{kSamples})) +
                                                 " % of the sampled points are not finite"};
     }
   }

@@ -25,16 +25,17 @@ std::optional<Counted> count(const ViewEvidence& view) {
   const std::size_t size = view.pair->domain.size();
   if (size == 0 || size > kMostSamples / 10) return std::nullopt;
   Counted c;
-  for (std::size_t i = 0; i < size; ++i) {
-    c.pmf.push_back(view.pair->pdf({static_cast<double>(i), 0, 0}));
-    if (!(c.pmf.back() >= 0) || !std::isfinite(c.pmf.back())) return std::nullopt;
-    c.sum += c.pmf.back();
+  std::vector<Vec3> all;
+  for (std::size_t i = 0; i < size; ++i) all.push_back({static_cast<double>(i), 0, 0});
+  c.pmf = pdfs_at(view, all);
+  for (const double p : c.pmf) {
+    if (!(p >= 0) || !std::isfinite(p)) return std::nullopt;
+    c.sum += p;
   }
   c.observed.assign(size, 0);
   Random random = random_for(Stream::discrete);
   const std::size_t samples = std::clamp(kSamplesEach * size, kFewestSamples, kMostSamples);
-  for (std::size_t i = 0; i < samples; ++i) {
-    const auto s = view.pair->next(random);
+  for (const Record& s : draw_records(view, random, samples)) {
     if (!s || !(s->x[0] >= 0) || s->x[0] >= static_cast<double>(size)) continue;
     ++c.observed[static_cast<std::size_t>(s->x[0])];
     ++c.samples;

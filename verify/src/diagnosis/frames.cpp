@@ -22,15 +22,20 @@ std::pair<Vec3, Vec3> mean_directions(const ViewEvidence& view) {
   const Chart& chart = pair.domain.chart();
   Random random = random_for(Stream::mean_direction);
   Vec3 of_samples{}, of_pdf{};
+  const bool map = pair.sample && pair.numbers <= 2;
   for (int i = 0; i < kPerSide; ++i) {
+    std::vector<Uniforms> row;
+    std::vector<Vec3> points;
     for (int j = 0; j < kPerSide; ++j) {
-      const Point2 p{(i + 0.5) / kPerSide, (j + 0.5) / kPerSide};
-      const bool map = pair.sample && pair.numbers <= 2;
-      const auto s = map ? pair.sample({p[0], p[1], 0}) : pair.next(random);
-      if (has_density(s)) of_samples = sum(of_samples, s->x);
-      const Vec3 x = chart.from_square(p);
-      const double mass = pair.pdf(x) * chart.element(p);
-      if (std::isfinite(mass)) of_pdf = sum(of_pdf, scaled(x, mass));
+      row.push_back({(i + 0.5) / kPerSide, (j + 0.5) / kPerSide, 0});
+      points.push_back(chart.from_square({row.back()[0], row.back()[1]}));
+    }
+    const auto samples = map ? ask(pair.sample, row) : draw_records(view, random, kPerSide);
+    for (const Vec3& x : points_of_density(samples)) of_samples = sum(of_samples, x);
+    const std::vector<double> pdfs = pdfs_at(view, points);
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      const double mass = pdfs[j] * chart.element({row[j][0], row[j][1]});
+      if (std::isfinite(mass)) of_pdf = sum(of_pdf, scaled(points[j], mass));
     }
   }
   return {of_samples, of_pdf};

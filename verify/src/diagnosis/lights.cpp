@@ -84,22 +84,23 @@ struct SeenSphere {
 std::optional<SeenSphere> seen_sphere(const ViewEvidence& view) {
   constexpr int kPerSide = 400;
   if (!view.pair->sample || view.pair->numbers > 2) return std::nullopt;
-  std::vector<Vec3> points;
-  const auto add = [&](double u, double v) {
-    const auto s = view.pair->sample({u, v, 0});
-    if (has_density(s)) points.push_back(s->x);
-  };
   const auto middle = [](int i) { return (i + 0.5) / kPerSide; };
-  for (int i = 0; i < kPerSide * kPerSide; ++i) add(middle(i % kPerSide), middle(i / kPerSide));
+  std::vector<Uniforms> inside, ends;
+  for (int i = 0; i < kPerSide * kPerSide; ++i) {
+    inside.push_back({middle(i % kPerSide), middle(i / kPerSide), 0});
+  }
+  std::vector<Vec3> points = points_of_density(ask(view.pair->sample, inside));
   Vec3 mean{};
   for (const Vec3& x : points) mean = sum(mean, x);
   // The border may lie at the end of a number.
   for (int i = 0; i < kPerSide; ++i) {
     for (const double end : {1e-12, 1 - 1e-12}) {
-      add(end, middle(i));
-      add(middle(i), end);
+      ends.push_back({end, middle(i), 0});
+      ends.push_back({middle(i), end, 0});
     }
   }
+  const std::vector<Vec3> border = points_of_density(ask(view.pair->sample, ends));
+  points.insert(points.end(), border.begin(), border.end());
   if (points.size() < 1000 || !(length(mean) > 0)) return std::nullopt;
   SeenSphere sphere{normalized(mean), 0};
   double lowest = 1;

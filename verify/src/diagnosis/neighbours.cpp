@@ -22,24 +22,19 @@ struct Valued {
 };
 
 std::vector<Valued> valued_samples(const ViewEvidence& view, bool of_weight) {
-  constexpr int kSamples = 12'000;
+  constexpr std::size_t kSamples = 12'000;
   Random random = random_for(Stream::groups);
   std::vector<Valued> out;
-  for (int i = 0; i < kSamples; ++i) {
-    const auto s = view.pair->next(random);
-    if (!has_density(s)) continue;
-    const double pdf = pdf_at(view, s->x);
-    double ratio = s->pdf.value_or(kNotApplicable) / pdf;
-    if (of_weight) {
-      const double value = value_at(view, s->x);
-      const double weight = s->weight.count > 0
-                                ? *std::max_element(s->weight.value.begin(),
-                                                    s->weight.value.begin() + s->weight.count)
-                                : 0;
-      ratio = weight * pdf / value;
-    }
-    if (ratio > 0 && std::isfinite(ratio))
-      out.push_back({s->x, std::log(ratio), s->pdf.value_or(kNotApplicable)});
+  std::vector<Record> samples = draw_records(view, random, kSamples);
+  std::erase_if(samples, [](const Record& s) { return !has_density(s); });
+  const std::vector<Vec3> points = points_of_density(samples);
+  const std::vector<double> pdfs = pdfs_at(view, points);
+  const auto values = of_weight ? values_at(view, points) : std::vector<double>();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const SampleRecord& s = *samples[i];
+    const double stated = s.pdf.value_or(kNotApplicable);
+    const double ratio = of_weight ? brightest(s.weight) * pdfs[i] / values[i] : stated / pdfs[i];
+    if (ratio > 0 && std::isfinite(ratio)) out.push_back({s.x, std::log(ratio), stated});
   }
   return out;
 }
@@ -197,18 +192,14 @@ bool is_symmetric(const ViewEvidence& view, const std::vector<Vec3>& points) {
 }  // namespace
 
 bool samples_break_a_symmetry(const ReportEvidence& evidence) {
-  constexpr int kSamples = 40'000;
+  constexpr std::size_t kSamples = 40'000;
   constexpr std::size_t kRings = 8;
   double statistic = 0;
   for (const ViewEvidence& v : evidence.views) {
     if (v.bsdf == nullptr || !has_wo(v)) continue;
     if (std::hypot((*v.wo)[0], (*v.wo)[1]) < 0.05) continue;
     Random random = random_for(Stream::sides);
-    std::vector<Vec3> points;
-    for (int i = 0; i < kSamples; ++i) {
-      const auto s = v.pair->next(random);
-      if (has_density(s)) points.push_back(s->x);
-    }
+    std::vector<Vec3> points = points_of_density(draw_records(v, random, kSamples));
     if (points.size() < 1000) continue;
     if (!is_symmetric(v, {points.begin(), points.begin() + 200})) return false;
     // By height, in rings of equal counts: left against right in each.
@@ -229,8 +220,8 @@ bool samples_break_a_symmetry(const ReportEvidence& evidence) {
 
 double share_never_sampled(const ViewEvidence& view) {
   constexpr std::size_t kCells = 48;
-  constexpr int kSamples = 100'000;
-  constexpr int kSteps = 3;
+  constexpr std::size_t kSamples = 100'000;
+  constexpr std::size_t kSteps = 3;
   // A cell that expects so many stays empty by chance once in 5e8 times.
   constexpr double kMany = 20;
   const Domain& domain = view.pair->domain;
@@ -241,27 +232,31 @@ double share_never_sampled(const ViewEvidence& view) {
   };
   std::vector<int> seen(kCells * kCells);
   Random random = random_for(Stream::empty_cells);
-  for (int i = 0; i < kSamples; ++i) {
-    const auto s = view.pair->next(random);
-    if (!has_density(s)) continue;
-    const Point2 p = chart.to_square(s->x);
+  for (const Vec3& x : points_of_density(draw_records(view, random, kSamples))) {
+    const Point2 p = chart.to_square(x);
     ++seen[cell_of(p[0]) * kCells + (domain.dimension() == 1 ? 0 : cell_of(p[1]))];
   }
   double never = 0, total = 0;
   const std::size_t second = domain.dimension() == 1 ? 1 : kCells;
   for (std::size_t i = 0; i < kCells; ++i) {
+    std::vector<Point2> places;
+    std::vector<Vec3> points;
+    for (std::size_t k = 0; k < second * kSteps * kSteps; ++k) {
+      const std::size_t column = k % kSteps, row = k / kSteps;
+      const Point2& p = places.emplace_back(
+          Point2{(static_cast<double>(i) + (static_cast<double>(column) + 0.5) / kSteps) / kCells,
+                 (static_cast<double>(row) + 0.5) / static_cast<double>(second * kSteps)});
+      points.push_back(chart.from_square(p));
+    }
+    const std::vector<double> pdfs = pdfs_at(view, points);
     for (std::size_t j = 0; j < second; ++j) {
       double mass = 0;
-      for (int k = 0; k < kSteps * kSteps; ++k) {
-        const int column = k % kSteps, row = k / kSteps;
-        const Point2 p = {
-            (static_cast<double>(i) + (column + 0.5) / kSteps) / kCells,
-            (static_cast<double>(j) + (row + 0.5) / kSteps) / static_cast<double>(second)};
-        mass += pdf_at(view, chart.from_square(p)) * chart.element(p) /
-                (double{kSteps} * kSteps * kCells * static_cast<double>(second));
+      for (std::size_t k = j * kSteps * kSteps; k < (j + 1) * kSteps * kSteps; ++k) {
+        mass += pdfs[k] * chart.element(places[k]) /
+                static_cast<double>(kSteps * kSteps * kCells * second);
       }
       total += mass;
-      if (mass * kSamples > kMany && seen[i * kCells + j] == 0) never += mass;
+      if (mass * double{kSamples} > kMany && seen[i * kCells + j] == 0) never += mass;
     }
   }
   return total > 0 ? never / total : 0;

@@ -20,20 +20,17 @@ void add_series(const ViewEvidence& view, const RatioSeries& series, int lobe,
     if (p.lobe == lobe || lobe < 0) points.push_back(&p);
   }
   const std::size_t step = std::max<std::size_t>(1, points.size() / kExactPerView);
-  for (std::size_t i = 0; i < points.size(); i += step) {
-    const RatioAt& p = *points[i];
+  std::vector<Vec3> x;
+  for (std::size_t i = 0; i < points.size(); i += step) x.push_back(points[i]->x);
+  const std::vector<double> bases =
+      series.kind == RatioKind::weight_over_value ? values_at(view, x) : pdfs_at(view, x);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const RatioAt& p = *points[i * step];
     ExactPoint e;
-    e.place = {&view, view.wo.value_or(Vec3{}), p.x, 0, p.u ? &*p.u : nullptr};
-    switch (series.kind) {
-      case RatioKind::weight_over_value:
-        e.place.base = value_at(view, p.x);
-        break;
-      case RatioKind::lobe_density_over_pdf:
-        e.place.base = view.pair->lobes[static_cast<std::size_t>(p.lobe)].pdf(p.x);
-        break;
-      default:
-        e.place.base = pdf_at(view, p.x);
-    }
+    const bool of_lobe = series.kind == RatioKind::lobe_density_over_pdf;
+    const double base =
+        of_lobe ? view.pair->lobes[static_cast<std::size_t>(p.lobe)].pdf(p.x) : bases[i];
+    e.place = {&view, view.wo.value_or(Vec3{}), p.x, base, p.u ? &*p.u : nullptr};
     e.ratio = p.ratio;
     e.error = p.error;
     if (usable(e.ratio, e.place.base)) out.exact.push_back(e);
@@ -41,6 +38,12 @@ void add_series(const ViewEvidence& view, const RatioSeries& series, int lobe,
 }
 
 void add_bins(const ViewEvidence& view, ViewObservations& out) {
+  std::vector<Vec3> nodes;
+  for (const BinSeen& seen : view.bins) {
+    if (seen.expected > 0) nodes.insert(nodes.end(), seen.nodes.begin(), seen.nodes.end());
+  }
+  const std::vector<double> pdfs = pdfs_at(view, nodes);
+  auto pdf = pdfs.begin();
   for (const BinSeen& seen : view.bins) {
     if (seen.nodes.empty() || !(seen.expected > 0)) continue;
     CountedBin bin;
@@ -51,7 +54,7 @@ void add_bins(const ViewEvidence& view, ViewObservations& out) {
     bin.measures = seen.measures;
     bin.samples = view.samples;
     for (const Vec3& x : seen.nodes) {
-      bin.nodes.push_back({&view, view.wo.value_or(Vec3{}), x, pdf_at(view, x)});
+      bin.nodes.push_back({&view, view.wo.value_or(Vec3{}), x, *pdf++});
       if (bin.nodes.back().base > 0) continue;
       bin.edge = true;
       if (!view.strays.empty()) bin.judged = false;

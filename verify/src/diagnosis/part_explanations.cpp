@@ -356,18 +356,20 @@ std::optional<Finding> explain_by_branches(const ReportEvidence& evidence) {
     const PartMap map(pair, whole, 0);
     if (!map.usable()) return std::nullopt;
     const double tolerance = tolerance_of_parts(pair);
-    constexpr int kPoints = 150;
+    constexpr std::size_t kPoints = 150;
     Random random = random_for(Stream::branch_points);
-    for (int i = 0; i < kPoints; ++i) {
-      const auto s = map.map()(map.draw(random));
-      if (!has_density(s)) continue;
-      const double pdf = pair.pdf(s->x);
-      const auto ways = map.ways(s->x);
+    std::vector<Uniforms> u;
+    while (u.size() < kPoints) u.push_back(map.draw(random));
+    const std::vector<Vec3> points = points_of_density(ask(map.map(), u));
+    const std::vector<double> pdfs = ask(pair.pdf, points);
+    const auto all_ways = map.ways(std::vector<BranchSearch::Target>(points.begin(), points.end()));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Ways& ways = all_ways[i];
       if (!ways || ways->empty()) continue;
       ++tested;
       several += ways->size() > 1 ? 1 : 0;
       matching += std::any_of(ways->begin(), ways->end(), [&](const WayThere& w) {
-        return std::abs(w.density.value / pdf - 1) <= tolerance + 4 * w.density.relative_error;
+        return std::abs(w.density.value / pdfs[i] - 1) <= tolerance + 4 * w.density.relative_error;
       });
     }
   }

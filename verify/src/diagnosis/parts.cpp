@@ -2,9 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "diagnosis/ask.h"
+#include "pairs/batches.h"
 #include "streams.h"
 #include "vec3.h"
 
@@ -27,12 +33,9 @@ class Line {
   std::vector<double> jumps() const {
     constexpr int kSteps = 1024;
     std::vector<double> at;
-    std::vector<std::optional<SampleRecord>> samples;
-    for (int i = 0; i < kSteps; ++i) {
-      at.push_back((i + 0.5) / kSteps);
-      samples.push_back(sample(at.back()));
-    }
-    std::vector<double> found;
+    for (int i = 0; i < kSteps; ++i) at.push_back((i + 0.5) / kSteps);
+    const std::vector<Record> samples = samples_at(at);
+    std::vector<Jump> found;
     const auto step = [&](std::size_t i) {
       return i + 1 < samples.size() && has_density(samples[i]) && has_density(samples[i + 1])
                  ? distance(samples[i], samples[i + 1])
@@ -41,37 +44,48 @@ class Line {
     for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
       const double around = std::max(i > 0 ? step(i - 1) : 0.0, step(i + 1));
       if (!(step(i) > 1e-3 && step(i) > 1.2 * around)) continue;
-      if (const auto border = bisect(at[i], at[i + 1])) found.push_back(*border);
+      found.push_back({at[i], at[i + 1], samples[i], samples[i + 1], step(i)});
     }
-    return found;
+    return narrowed(std::move(found));
   }
 
  private:
-  std::optional<SampleRecord> sample(double u) const {
-    Uniforms all = others_;
-    all[number_] = u;
-    return pair_.sample(all);
+  struct Jump {
+    double from = 0, to = 0;
+    Record low, high;
+    double size = 0;
+  };
+
+  std::vector<Record> samples_at(const std::vector<double>& at) const {
+    std::vector<Uniforms> all(at.size(), others_);
+    for (std::size_t i = 0; i < at.size(); ++i) all[i][number_] = at[i];
+    return ask(pair_.sample, all);
   }
 
-  /// nullopt: it becomes smooth on the way.
-  std::optional<double> bisect(double from, double to) const {
-    auto low = sample(from), high = sample(to);
-    const double jump = distance(low, high);
+  /// Where they are, bisected in step; without those that become smooth on the way.
+  std::vector<double> narrowed(std::vector<Jump> jumps) const {
     const double least = pair_.epsilon > 0x1p-40 ? 1e-6 : 1e-9;
-    while (to - from > least) {
-      const double middle = (from + to) / 2;
-      const auto there = sample(middle);
-      if (!has_density(there)) return std::nullopt;
-      if (distance(low, there) < distance(there, high)) {
-        from = middle;
-        low = there;
-      } else {
-        to = middle;
-        high = there;
+    while (!jumps.empty() && jumps.front().to - jumps.front().from > least) {
+      std::vector<double> middles;
+      for (const Jump& jump : jumps) middles.push_back((jump.from + jump.to) / 2);
+      const std::vector<Record> there = samples_at(middles);
+      std::vector<Jump> left;
+      for (std::size_t i = 0; i < jumps.size(); ++i) {
+        Jump& jump = jumps[i];
+        if (!has_density(there[i])) continue;
+        const bool in_upper_half = distance(jump.low, there[i]) < distance(there[i], jump.high);
+        (in_upper_half ? jump.from : jump.to) = middles[i];
+        (in_upper_half ? jump.low : jump.high) = there[i];
+        left.push_back(std::move(jump));
       }
+      jumps = std::move(left);
     }
-    if (distance(low, high) < jump / 4) return std::nullopt;
-    return (from + to) / 2;
+    std::vector<double> at;
+    for (const Jump& jump : jumps) {
+      if (distance(jump.low, jump.high) < jump.size / 4) continue;
+      at.push_back((jump.from + jump.to) / 2);
+    }
+    return at;
   }
 
   const SamplingPair& pair_;
@@ -118,16 +132,23 @@ Parts parts_of(const SamplingPair& pair) {
   return best.count() < 2 && far_too_many ? Parts{} : best;
 }
 
-std::optional<std::vector<WayThere>> ways_to(const BranchSearch& search, const Map& map,
-                                             const SamplingPair& pair, const Vec3& x,
-                                             std::optional<Uniforms> known) {
-  std::vector<WayThere> all;
-  for (const Uniforms& u : search.preimages(x, known)) {
-    const auto d = density_by_differences(map, u, pair.domain.dimension(), pair.epsilon);
-    if (!d || !(d->relative_error <= tolerance_of_parts(pair) / 4)) return std::nullopt;
-    all.push_back({*d, u});
+std::vector<Ways> ways_to(const BranchSearch& search, const Map& map, const SamplingPair& pair,
+                          std::span<const BranchSearch::Target> targets) {
+  const auto preimages = search.preimages(targets);
+  std::vector<Uniforms> all;
+  for (const auto& of_point : preimages) all.insert(all.end(), of_point.begin(), of_point.end());
+  const auto densities = densities_by_differences(map, all, pair.domain.dimension(), pair.epsilon);
+  std::vector<Ways> ways;
+  auto next = densities.begin();
+  for (const auto& of_point : preimages) {
+    Ways& there = ways.emplace_back(std::vector<WayThere>{});
+    for (const Uniforms& u : of_point) {
+      const auto& d = *next++;
+      if (!d || !(d->relative_error <= tolerance_of_parts(pair) / 4)) there.reset();
+      if (there) there->push_back({*d, u});
+    }
   }
-  return all;
+  return ways;
 }
 
 bool choice_is_used_again(const SamplingPair& pair, const Parts& parts) {
@@ -142,7 +163,13 @@ PartMap::PartMap(const SamplingPair& pair, const Parts& parts, std::size_t part)
     : pair_(pair),
       parts_(parts),
       part_(part),
-      map_([this](const Uniforms& u) { return pair_.sample(whole(u)); }) {
+      map_(
+          [this](std::span<const Uniforms> u, std::span<Record> out) {
+            std::vector<Uniforms> all;
+            for (const Uniforms& of_part : u) all.push_back(whole(of_part));
+            pair_.sample(all, out);
+          },
+          pair.sample.batch()) {
   find_numbers();
   if (usable()) search_.emplace(map_, pair_.domain.dimension(), pair_.epsilon);
 }
@@ -158,11 +185,13 @@ Uniforms PartMap::draw(Random& random) const {
 }
 
 double PartMap::accepted() const {
-  constexpr int kTries = 10'000;
+  constexpr std::size_t kTries = 10'000;
   Random random = random_for(Stream::part_accepted);
-  int accepted = 0;
-  for (int i = 0; i < kTries; ++i) accepted += has_density(map_(draw(random))) ? 1 : 0;
-  return accepted / double{kTries};
+  std::vector<Uniforms> u;
+  while (u.size() < kTries) u.push_back(draw(random));
+  const std::vector<Record> samples = ask(map_, u);
+  return static_cast<double>(std::count_if(samples.begin(), samples.end(), has_density)) /
+         double{kTries};
 }
 
 /// All numbers of the pair, from those of the part.

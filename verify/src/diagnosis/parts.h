@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "diagnosis/evidence.h"
@@ -36,12 +38,12 @@ struct WayThere {
   Uniforms u{};
 };
 
-/// Density by differences of every way of a map to a point; nullopt where one of them is not known.
-///
-/// @param known  numbers that lead there, if any are
-std::optional<std::vector<WayThere>> ways_to(const BranchSearch& search, const Map& map,
-                                             const SamplingPair& pair, const Vec3& x,
-                                             std::optional<Uniforms> known = {});
+/// All ways to a point; nullopt where the density of one of them is not known.
+using Ways = std::optional<std::vector<WayThere>>;
+
+/// Densities by differences of every way of a map to each of some points.
+std::vector<Ways> ways_to(const BranchSearch& search, const Map& map, const SamplingPair& pair,
+                          std::span<const BranchSearch::Target> targets);
 
 /// A part's map from its own numbers in [0, 1), as many as the domain has dimensions.
 class PartMap {
@@ -58,10 +60,9 @@ class PartMap {
 
   Uniforms draw(Random& random) const;
 
-  /// Of all numbers of the part that lead to a point.
-  std::optional<std::vector<WayThere>> ways(const Vec3& x,
-                                            std::optional<Uniforms> known = {}) const {
-    return ways_to(*search_, map_, pair_, x, known);
+  /// Of all numbers of the part that lead to points.
+  std::vector<Ways> ways(std::span<const BranchSearch::Target> targets) const {
+    return ways_to(*search_, map_, pair_, targets);
   }
 
   /// Share of the part's numbers that are not rejected.

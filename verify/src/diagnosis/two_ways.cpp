@@ -1,9 +1,16 @@
 #include "diagnosis/two_ways.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "diagnosis/ask.h"
+#include "pairs/batches.h"
 #include "streams.h"
 #include "vec3.h"
 
@@ -28,64 +35,100 @@ TwoWays::TwoWays(const SamplingPair& pair) : pair_(pair) {
     if (chooses(n)) chooser_ = n;
   }
   for (std::size_t way = 0; way < maps_.size(); ++way) {
-    maps_[way] = [this, way](const Uniforms& u) { return at(u, kEnds[way]); };
+    maps_[way] = Map(
+        [this, way](std::span<const Uniforms> u, std::span<Record> out) {
+          std::vector<Uniforms> all;
+          for (const Uniforms& others : u) all.push_back(all_numbers(others, kEnds[way]));
+          pair_.sample(all, out);
+        },
+        pair.sample.batch());
   }
 }
 
-double TwoWays::probability(std::size_t which, const Uniforms& others) const {
-  const double first = border(others).value_or(0);
-  return which == 0 ? first : 1 - first;
+std::vector<double> TwoWays::probabilities(std::size_t which,
+                                           const std::vector<Uniforms>& others) const {
+  std::vector<double> probabilities;
+  for (const auto& border : borders(others)) {
+    const double first = border.value_or(0);
+    probabilities.push_back(which == 0 ? first : 1 - first);
+  }
+  return probabilities;
 }
 
-std::optional<SampleRecord> TwoWays::at(const Uniforms& others, double choice) const {
+Uniforms TwoWays::all_numbers(const Uniforms& others, double choice) const {
   const std::size_t chooser = chooser_.value_or(0);
   Uniforms all{};
   for (std::size_t n = 0, next = 0; n < static_cast<std::size_t>(pair_.numbers); ++n) {
     all[n] = n == chooser ? choice : others[next++];
   }
-  return pair_.sample(all);
+  return all;
+}
+
+std::vector<Record> TwoWays::at(const std::vector<Uniforms>& others,
+                                const std::vector<double>& choices) const {
+  std::vector<Uniforms> all;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    all.push_back(all_numbers(others[i], choices[i]));
+  }
+  return ask(pair_.sample, all);
 }
 
 /// Where the first way ends: 1 where both ends of the number lead the same way; nullopt if the
-/// number does something else as well.
-std::optional<double> TwoWays::border(const Uniforms& others) const {
-  const auto first = at(others, kEnds[0]), last = at(others, kEnds[1]);
-  if (same_draw(first, last)) return 1;
-  double from = kEnds[0], to = kEnds[1];
-  while (to - from > 1e-12) {
-    const double middle = (from + to) / 2;
-    const auto there = at(others, middle);
-    if (same_draw(there, first)) {
-      from = middle;
-    } else if (same_draw(there, last)) {
-      to = middle;
-    } else {
-      return std::nullopt;
-    }
+/// number does something else as well. Bisected in step.
+std::vector<std::optional<double>> TwoWays::borders(const std::vector<Uniforms>& others) const {
+  const std::size_t count = others.size();
+  const auto first = at(others, std::vector<double>(count, kEnds[0]));
+  const auto last = at(others, std::vector<double>(count, kEnds[1]));
+  std::vector<std::optional<double>> borders(count, 1.0);
+  std::vector<std::size_t> open;
+  std::vector<double> from(count, kEnds[0]), to(count, kEnds[1]);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!same_draw(first[i], last[i])) open.push_back(i);
   }
-  return (from + to) / 2;
+  while (!open.empty() && to[open.front()] - from[open.front()] > 1e-12) {
+    std::vector<Uniforms> asked;
+    std::vector<double> middles;
+    for (const std::size_t i : open) {
+      asked.push_back(others[i]);
+      middles.push_back((from[i] + to[i]) / 2);
+    }
+    const auto there = at(asked, middles);
+    std::vector<std::size_t> left;
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const std::size_t i = open[k];
+      const bool is_first = same_draw(there[k], first[i]);
+      borders[i].reset();
+      if (!is_first && !same_draw(there[k], last[i])) continue;
+      (is_first ? from[i] : to[i]) = middles[k];
+      left.push_back(i);
+    }
+    open = std::move(left);
+  }
+  for (const std::size_t i : open) borders[i] = (from[i] + to[i]) / 2;
+  return borders;
 }
 
 bool TwoWays::chooses(std::size_t number) {
-  constexpr int kDraws = 24;
+  constexpr std::size_t kDraws = 24;
   constexpr std::array<double, 4> kBetween = {0.03, 0.35, 0.65, 0.97};
   chooser_ = number;
   Random random = random_for(Stream::part_lines);
-  int borders = 0;
-  bool only_chooses = true;
-  for (int i = 0; i < kDraws && only_chooses; ++i) {
-    const Uniforms others{random.uniform(), random.uniform(), 0};
-    const auto ends_first = border(others);
-    only_chooses = ends_first.has_value();
-    if (!only_chooses) break;
-    borders += *ends_first < 1 ? 1 : 0;
-    for (const double t : kBetween) {
-      const std::size_t way = t < *ends_first ? 0 : 1;
-      only_chooses = only_chooses && same_draw(at(others, t), at(others, kEnds[way]));
-    }
+  std::vector<Uniforms> others(kDraws);
+  for (Uniforms& u : others) u = {random.uniform(), random.uniform(), 0};
+  const auto ends_first = borders(others);
+  bool only_chooses = std::all_of(ends_first.begin(), ends_first.end(),
+                                  [](const auto& border) { return border.has_value(); });
+  for (std::size_t b = 0; b < kBetween.size() && only_chooses; ++b) {
+    std::vector<double> ends;
+    for (const auto& border : ends_first) ends.push_back(kEnds[kBetween[b] < *border ? 0 : 1]);
+    const auto there = at(others, std::vector<double>(kDraws, kBetween[b]));
+    const auto at_end = at(others, ends);
+    only_chooses = std::equal(there.begin(), there.end(), at_end.begin(), same_draw);
   }
   chooser_.reset();
-  return only_chooses && borders > kDraws / 4;
+  const auto chosen = std::count_if(ends_first.begin(), ends_first.end(),
+                                    [](const auto& border) { return border && *border < 1; });
+  return only_chooses && static_cast<std::size_t>(chosen) > kDraws / 4;
 }
 
 }  // namespace plumbline::verify

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "pairs/branches.h"
 #include "pairs/differences.h"
@@ -23,11 +24,13 @@ class TwoWays {
 
   /// One way's map of the other numbers, and how likely it is for these.
   const Map& way(std::size_t which) const { return maps_[which]; }
-  double probability(std::size_t which, const Uniforms& others) const;
+  std::vector<double> probabilities(std::size_t which, const std::vector<Uniforms>& others) const;
 
  private:
-  std::optional<SampleRecord> at(const Uniforms& others, double choice) const;
-  std::optional<double> border(const Uniforms& others) const;
+  Uniforms all_numbers(const Uniforms& others, double choice) const;
+  std::vector<std::optional<SampleRecord>> at(const std::vector<Uniforms>& others,
+                                              const std::vector<double>& choices) const;
+  std::vector<std::optional<double>> borders(const std::vector<Uniforms>& others) const;
   bool chooses(std::size_t number);
 
   const SamplingPair& pair_;

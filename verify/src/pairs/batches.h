@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,6 +14,15 @@
 namespace plumbline::verify {
 
 using Record = std::optional<SampleRecord>;
+
+inline bool is_finite(const Vec3& x) {
+  return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+}
+
+/// A sample that is neither rejected nor an atom, nor at a point that is none.
+inline bool has_density(const Record& sample) {
+  return sample && !(sample->mass > 0) && is_finite(sample->x);
+}
 
 inline std::size_t samples_at_once(const SamplingPair& pair) {
   return pair.draw ? Many<double(Vec3)>::kOneByOne : pair.sample.batch();

@@ -24,14 +24,15 @@ std::vector<BinSeen> bins_seen(const BinnedPair& binned) {
   const int depth = std::clamp(static_cast<int>(std::log2(n / kCountsPerBin)), 0, binned.depth());
   const BinTable table = table_of(binned, depth);
   const int finer = binned.depth() - depth;
+  const auto nodes = binned.nodes();
   std::vector<BinSeen> bins(table.expected.size());
   for (std::size_t i = 0; i < bins.size(); ++i) {
     bins[i].observed = table.observed[i];
     bins[i].expected = table.expected[i];
     double total = 0;
     for (std::size_t fine = i << finer; fine < (i + 1) << finer; ++fine) {
-      if (fine >= binned.expected().value.size()) continue;
-      for (const BinnedPair::Node& node : binned.nodes_of(fine)) {
+      if (fine >= nodes.size()) continue;
+      for (const BinnedPair::Node& node : nodes[fine]) {
         bins[i].nodes.push_back(node.x);
         bins[i].shares.push_back(node.mass);
         bins[i].measures.push_back(node.measure);

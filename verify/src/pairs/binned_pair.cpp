@@ -35,10 +35,6 @@ constexpr double kOutside = 1e-4;
 constexpr std::size_t kStraysKept = 64;
 constexpr std::size_t kMostAtoms = 64;
 
-bool finite(const Vec3& x) {
-  return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
-}
-
 bool same_point(const Vec3& a, const Vec3& b) {
   return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])}) <= 1e-5;
 }
@@ -48,7 +44,8 @@ OwnSamples draw_own(const SamplingPair& pair, std::size_t count, Random& random)
   OwnSamples points;
   draw_in_batches(pair, random, count, [&](std::span<const Record> samples) {
     for (const Record& s : samples) {
-      if (s && s->mass == 0 && finite(s->x)) points.push_back(pair.domain.chart().to_square(s->x));
+      if (s && s->mass == 0 && is_finite(s->x))
+        points.push_back(pair.domain.chart().to_square(s->x));
     }
   });
   return points;
@@ -185,7 +182,7 @@ void BinnedPair::measure_rounding(std::uint64_t seed) {
   std::vector<Vec3> points, moved;
   draw_in_batches(pair_, random, kPoints, [&](std::span<const Record> samples) {
     for (const Record& s : samples) {
-      if (s && !(s->mass > 0) && finite(s->x)) points.push_back(s->x);
+      if (s && !(s->mass > 0) && is_finite(s->x)) points.push_back(s->x);
     }
   });
   for (const Vec3& x : points) {
@@ -216,7 +213,7 @@ void BinnedPair::count(std::span<const Record> samples) {
       ++counts_.rejected;
     } else if (sample->mass > 0) {
       count_atom(*sample);
-    } else if (finite(sample->x)) {
+    } else if (is_finite(sample->x)) {
       points.push_back(sample->x);
     } else {
       ++counts_.not_finite;
@@ -224,7 +221,7 @@ void BinnedPair::count(std::span<const Record> samples) {
     }
   }
   const std::vector<double> densities = ask(pair_.pdf, points);
-  for (std::size_t i = 0; i < points.size(); ++i) count_point(points[i], densities[i]);
+  count_points(points, densities);
 }
 
 void BinnedPair::count_atom(const SampleRecord& sample) {
@@ -241,57 +238,93 @@ void BinnedPair::count_atom(const SampleRecord& sample) {
   }
 }
 
-bool positive_near(const SamplingPair& pair, const Vec3& x) {
+std::vector<bool> positive_near(const SamplingPair& pair, const std::vector<Vec3>& points) {
   // A float direction that rounding put outside the support is within a few 2^-24 of it.
   constexpr double kRoundingDistance = 2e-6;
-  for (int k = 0; k < 8; ++k) {
-    const double angle = k * std::numbers::pi / 4;
-    if (pair.pdf(pair.domain.chart().near(x, kRoundingDistance, angle)) > 0) return true;
+  constexpr std::size_t kDirections = 8;
+  std::vector<Vec3> around;
+  for (const Vec3& x : points) {
+    for (std::size_t k = 0; k < kDirections; ++k) {
+      const double angle = static_cast<double>(k) * std::numbers::pi / 4;
+      around.push_back(pair.domain.chart().near(x, kRoundingDistance, angle));
+    }
   }
-  return false;
+  const std::vector<double> densities = ask(pair.pdf, around);
+  std::vector<bool> positive(points.size());
+  for (std::size_t i = 0; i < densities.size(); ++i) {
+    if (densities[i] > 0) positive[i / kDirections] = true;
+  }
+  return positive;
 }
 
-bool BinnedPair::is_stray(const Vec3& x) const { return !tree_ || !positive_near(pair_, x); }
+bool BinnedPair::inside(const Vec3& x) const {
+  return tree_ ? pair_.domain.chart().distance(x) <= kOutside
+               : x[0] >= 0 && x[0] < static_cast<double>(pair_.domain.size());
+}
 
-void BinnedPair::count_point(const Vec3& x, double density) {
-  if (!(density >= 0) || std::isinf(density)) {
-    ++counts_.not_finite;
-    counts_.not_finite_at = x;
-    return;
-  }
-  const bool inside = tree_ ? pair_.domain.chart().distance(x) <= kOutside
-                            : x[0] >= 0 && x[0] < static_cast<double>(pair_.domain.size());
-  if (!inside || (density == 0 && is_stray(x))) {
+void BinnedPair::count_points(const std::vector<Vec3>& points,
+                              const std::vector<double>& densities) {
+  const auto see_stray = [this](const Vec3& x) {
     ++counts_.stray;
     if (counts_.strays.size() < kStraysKept) counts_.strays.push_back(x);
+  };
+  std::vector<Vec3> doubtful;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3& x = points[i];
+    if (!(densities[i] >= 0) || std::isinf(densities[i])) {
+      ++counts_.not_finite;
+      counts_.not_finite_at = x;
+      continue;
+    }
+    if (!inside(x)) {
+      see_stray(x);
+      continue;
+    }
+    ++counts_.bins[locate(x)];
+    if (densities[i] == 0) doubtful.push_back(x);
   }
-  if (inside) ++counts_.bins[locate(x)];
+  const std::vector<bool> rounded =
+      tree_ ? positive_near(pair_, doubtful) : std::vector<bool>(doubtful.size());
+  for (std::size_t i = 0; i < doubtful.size(); ++i) {
+    if (!rounded[i]) see_stray(doubtful[i]);
+  }
 }
 
 std::size_t BinnedPair::locate(const Vec3& x) const {
   return tree_ ? tree_->locate(pair_.domain.chart().to_square(x)) : static_cast<std::size_t>(x[0]);
 }
 
-std::vector<BinnedPair::Node> BinnedPair::nodes_of(std::size_t bin) const {
+std::vector<std::vector<BinnedPair::Node>> BinnedPair::nodes() const {
   constexpr int kSteps = 2;
-  if (!tree_) return {{{static_cast<double>(bin), 0, 0}, expected_.value[bin], 1}};
-  const Box& box = tree_->box(bin);
+  std::vector<std::vector<Node>> nodes(expected_.value.size());
+  if (!tree_) {
+    for (std::size_t bin = 0; bin < nodes.size(); ++bin) {
+      nodes[bin] = {{{static_cast<double>(bin), 0, 0}, expected_.value[bin], 1}};
+    }
+    return nodes;
+  }
   const Chart& chart = pair_.domain.chart();
   const int second = pair_.domain.dimension() == 1 ? 1 : kSteps;
-  const double area = (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]) / (kSteps * second);
-  std::vector<Node> nodes;
-  double total = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    for (int j = 0; j < second; ++j) {
-      const Point2 p = {box.low[0] + (box.high[0] - box.low[0]) * (i + 0.5) / kSteps,
-                        box.low[1] + (box.high[1] - box.low[1]) * (j + 0.5) / second};
-      const Vec3 x = chart.from_square(p);
-      const double measure = chart.element(p) * area, mass = pair_.pdf(x) * measure;
-      nodes.push_back({x, mass, measure});
-      total += mass;
+  std::vector<Vec3> points;
+  for (std::size_t bin = 0; bin < nodes.size(); ++bin) {
+    const Box& box = tree_->box(bin);
+    const double area = (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]) / (kSteps * second);
+    for (int i = 0; i < kSteps; ++i) {
+      for (int j = 0; j < second; ++j) {
+        const Point2 p = {box.low[0] + (box.high[0] - box.low[0]) * (i + 0.5) / kSteps,
+                          box.low[1] + (box.high[1] - box.low[1]) * (j + 0.5) / second};
+        points.push_back(chart.from_square(p));
+        nodes[bin].push_back({points.back(), 0, chart.element(p) * area});
+      }
     }
   }
-  for (Node& n : nodes) n.mass = total > 0 ? n.mass / total * expected_.value[bin] : 0;
+  const std::vector<double> pdfs = ask(pair_.pdf, points);
+  auto pdf = pdfs.begin();
+  for (std::size_t bin = 0; bin < nodes.size(); ++bin) {
+    double total = 0;
+    for (Node& n : nodes[bin]) total += n.mass = *pdf++ * n.measure;
+    for (Node& n : nodes[bin]) n.mass = total > 0 ? n.mass / total * expected_.value[bin] : 0;
+  }
   return nodes;
 }
 

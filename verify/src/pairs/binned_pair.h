@@ -15,7 +15,7 @@
 namespace plumbline::verify {
 
 /// Whether pdf() is positive somewhere within rounding of a point, for a domain with a chart.
-bool positive_near(const SamplingPair& pair, const Vec3& x);
+std::vector<bool> positive_near(const SamplingPair& pair, const std::vector<Vec3>& points);
 
 /// Integral of a function of the domain, with samples of the pair as nodes where it is not smooth:
 /// the pair's f·|cosθ|.
@@ -76,7 +76,7 @@ class BinnedPair {
     Vec3 x;
     double mass, measure;
   };
-  std::vector<Node> nodes_of(std::size_t bin) const;
+  std::vector<std::vector<Node>> nodes() const;  ///< of every finest bin
 
   /// Middle of a bin of a depth, in the domain.
   Vec3 center(int depth, std::size_t bin) const;
@@ -92,9 +92,9 @@ class BinnedPair {
   void measure_lines(const std::vector<Point2>& pilot);
   void count_atom(const SampleRecord& sample);
   void count(std::span<const std::optional<SampleRecord>> samples);
-  void count_point(const Vec3& x, double density);
+  bool inside(const Vec3& x) const;
+  void count_points(const std::vector<Vec3>& points, const std::vector<double>& densities);
   std::size_t locate(const Vec3& x) const;
-  bool is_stray(const Vec3& x) const;
 
   const SamplingPair& pair_;
   Random random_;

@@ -1,9 +1,12 @@
 #include "pairs/branches.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "pairs/batches.h"
 #include "vec3.h"
@@ -27,6 +30,18 @@ std::optional<Vec3> point_of(const Record& sample) {
   return sample->x;
 }
 
+/// Gauss–Newton's step.
+///
+/// @param slope  of the map along each number
+Uniforms gauss_newton(const std::array<Vec3, 2>& slope, const Vec3& off, int dimension) {
+  if (dimension == 1) return {dot(slope[0], off) / dot(slope[0], slope[0]), 0, 0};
+  const double a = dot(slope[0], slope[0]), b = dot(slope[0], slope[1]),
+               c = dot(slope[1], slope[1]);
+  const double p = dot(slope[0], off), q = dot(slope[1], off);
+  const double det = a * c - b * b;
+  return {(c * p - b * q) / det, (a * q - b * p) / det, 0};
+}
+
 }  // namespace
 
 BranchSearch::BranchSearch(const Map& map, int dimension, double epsilon)
@@ -43,11 +58,15 @@ BranchSearch::BranchSearch(const Map& map, int dimension, double epsilon)
       u.push_back({place(i), dimension == 1 ? 0 : place(j), 0});
     }
   }
-  const std::vector<Record> samples = ask(map_, u);
-  for (std::size_t i = 0; i < u.size(); ++i) grid_.push_back({u[i], point_of(samples[i])});
+  const auto x = at(u);
+  for (std::size_t i = 0; i < u.size(); ++i) grid_.push_back({u[i], x[i]});
 }
 
-std::optional<Vec3> BranchSearch::at(const Uniforms& u) const { return point_of(map_(u)); }
+std::vector<std::optional<Vec3>> BranchSearch::at(const std::vector<Uniforms>& u) const {
+  std::vector<std::optional<Vec3>> points;
+  for (const Record& sample : ask(map_, u)) points.push_back(point_of(sample));
+  return points;
+}
 
 /// The nearest nodes, and those that are nearer than all around them.
 std::vector<Uniforms> BranchSearch::starts(const Vec3& x) const {
@@ -83,71 +102,119 @@ std::vector<Uniforms> BranchSearch::starts(const Vec3& x) const {
   return starts;
 }
 
-/// Gauss–Newton's step with differences.
-std::optional<Uniforms> BranchSearch::step(const Vec3& here, const Vec3& x,
-                                           const Uniforms& u) const {
+/// Where differences between paths and points beside them lead; a path without is lost.
+void BranchSearch::find_changes(const Paths& paths) const {
   const double h = epsilon_ > 0x1p-40 ? 0x1p-12 : 0x1p-26;
-  std::array<Vec3, 2> slope{};
-  for (int d = 0; d < dimension_; ++d) {
-    const auto i = static_cast<std::size_t>(d);
-    Uniforms beside = u;
-    const double to = u[i] + h < 1 ? u[i] + h : u[i] - h;
-    beside[i] = to;
-    const auto there = at(beside);
-    if (!there) return std::nullopt;
-    slope[i] = scaled(sum(*there, scaled(here, -1)), 1 / (to - u[i]));
-  }
-  const Vec3 off = sum(x, scaled(here, -1));
-  if (dimension_ == 1) return Uniforms{dot(slope[0], off) / dot(slope[0], slope[0]), 0, 0};
-  const double a = dot(slope[0], slope[0]), b = dot(slope[0], slope[1]),
-               c = dot(slope[1], slope[1]);
-  const double p = dot(slope[0], off), q = dot(slope[1], off);
-  const double det = a * c - b * b;
-  return Uniforms{(c * p - b * q) / det, (a * q - b * p) / det, 0};
-}
-
-std::optional<Uniforms> BranchSearch::solve(const Vec3& x, Uniforms u) const {
-  auto here = at(u);
-  if (!here) return std::nullopt;
-  double off = squared_distance(*here, x);
-  const double enough = std::pow(64 * epsilon_, 2) * std::max(1.0, dot(x, x));
-  for (int i = 0; i < kMaxSteps && off > enough; ++i) {
-    const auto change = step(*here, x, u);
-    if (!change || !std::isfinite((*change)[0]) || !std::isfinite((*change)[1]))
-      return std::nullopt;
-    double length = 1;
-    bool nearer = false;
-    for (int k = 0; k < kMaxHalvings && !nearer; ++k, length /= 2) {
-      Uniforms next = u;
-      for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d) {
-        // Not past the end: the root may lie just before it.
-        const double to = u[d] + length * (*change)[d];
-        next[d] = to <= 0 ? u[d] / 2 : to >= 1 ? (u[d] + 1 - epsilon_) / 2 : to;
-      }
-      const auto there = at(next);
-      if (!there || !(squared_distance(*there, x) < off)) continue;
-      nearer = true;
-      u = next;
-      here = there;
-      off = squared_distance(*here, x);
+  const auto dimension = static_cast<std::size_t>(dimension_);
+  std::vector<Uniforms> beside;
+  for (const Path* path : paths) {
+    for (std::size_t d = 0; d < dimension; ++d) {
+      Uniforms& u = beside.emplace_back(path->u);
+      u[d] = u[d] + h < 1 ? u[d] + h : u[d] - h;
     }
-    if (!nearer) break;
   }
-  // Rounding of the point itself may stop the search a little earlier.
-  return off <= 256 * enough ? std::optional(u) : std::nullopt;
+  const auto there = at(beside);
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    Path& path = *paths[k];
+    std::array<Vec3, 2> slope{};
+    for (std::size_t d = 0; d < dimension && !path.lost; ++d) {
+      const std::size_t i = k * dimension + d;
+      path.lost = !there[i];
+      if (path.lost) break;
+      const double length = beside[i][d] - path.u[d];
+      slope[d] = scaled(sum(*there[i], scaled(path.here, -1)), 1 / length);
+    }
+    if (path.lost) continue;
+    path.change = gauss_newton(slope, sum(path.x, scaled(path.here, -1)), dimension_);
+    path.lost = !std::isfinite(path.change[0]) || !std::isfinite(path.change[1]);
+  }
 }
 
-std::vector<Uniforms> BranchSearch::preimages(const Vec3& x, std::optional<Uniforms> known) const {
-  std::vector<Uniforms> found;
-  if (known) found.push_back(*known);
+Uniforms BranchSearch::moved(const Path& path, double length) const {
+  Uniforms next = path.u;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d) {
+    // Not past the end: the root may lie just before it.
+    const double to = path.u[d] + length * path.change[d];
+    next[d] = to <= 0 ? path.u[d] / 2 : to >= 1 ? (path.u[d] + 1 - epsilon_) / 2 : to;
+  }
+  return next;
+}
+
+/// The paths that got nearer, by the longest of their steps that does.
+BranchSearch::Paths BranchSearch::approach(const Paths& paths) const {
+  Paths nearer, waiting = paths;
+  // Whole steps, and all the shorter ones of those that overshoot.
+  for (const auto& [first, count] : {std::pair{0, 1}, std::pair{1, kMaxHalvings - 1}}) {
+    std::vector<Uniforms> tried;
+    for (const Path* path : waiting) {
+      for (int k = 0; k < count; ++k) tried.push_back(moved(*path, std::exp2(-(first + k))));
+    }
+    const auto there = at(tried);
+    Paths left;
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+      Path& path = *waiting[i];
+      const std::size_t begin = i * static_cast<std::size_t>(count);
+      const std::size_t end = begin + static_cast<std::size_t>(count);
+      std::size_t k = begin;
+      while (k < end && !(there[k] && squared_distance(*there[k], path.x) < path.off)) ++k;
+      if (k == end) {
+        left.push_back(&path);
+        continue;
+      }
+      path.u = tried[k];
+      path.here = *there[k];
+      path.off = squared_distance(path.here, path.x);
+      nearer.push_back(&path);
+    }
+    waiting = std::move(left);
+  }
+  return nearer;
+}
+
+double BranchSearch::enough(const Vec3& x) const {
+  return std::pow(64 * epsilon_, 2) * std::max(1.0, dot(x, x));
+}
+
+void BranchSearch::begin(std::vector<Path>& paths) const {
+  std::vector<Uniforms> from;
+  for (const Path& path : paths) from.push_back(path.u);
+  const auto there = at(from);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    paths[i].lost = !there[i];
+    if (!there[i]) continue;
+    paths[i].here = *there[i];
+    paths[i].off = squared_distance(*there[i], paths[i].x);
+  }
+}
+
+std::vector<std::vector<Uniforms>> BranchSearch::preimages(std::span<const Target> targets) const {
+  std::vector<Path> paths;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    for (const Uniforms& u : starts(targets[i].x)) paths.push_back({i, targets[i].x, u});
+  }
+  begin(paths);
+  Paths active;
+  for (Path& path : paths) active.push_back(&path);
+  for (int i = 0; i < kMaxSteps && !active.empty(); ++i) {
+    std::erase_if(active, [&](const Path* p) { return p->lost || p->off <= enough(p->x); });
+    find_changes(active);
+    std::erase_if(active, [](const Path* p) { return p->lost; });
+    active = approach(active);
+  }
+
   const double same = epsilon_ > 0x1p-40 ? kSameInFloat : kSame;
-  for (const Uniforms& start : starts(x)) {
-    const auto u = solve(x, start);
-    if (!u) continue;
-    const bool seen = std::any_of(found.begin(), found.end(), [&](const Uniforms& other) {
-      return std::abs(other[0] - (*u)[0]) < same && std::abs(other[1] - (*u)[1]) < same;
+  std::vector<std::vector<Uniforms>> found(targets.size());
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (targets[i].known) found[i].push_back(*targets[i].known);
+  }
+  for (const Path& path : paths) {
+    // Rounding of the point itself may stop the search a little earlier.
+    if (path.lost || !(path.off <= 256 * enough(path.x))) continue;
+    std::vector<Uniforms>& of_target = found[path.target];
+    const bool seen = std::any_of(of_target.begin(), of_target.end(), [&](const Uniforms& other) {
+      return std::abs(other[0] - path.u[0]) < same && std::abs(other[1] - path.u[1]) < same;
     });
-    if (!seen) found.push_back(*u);
+    if (!seen) of_target.push_back(path.u);
   }
   return found;
 }

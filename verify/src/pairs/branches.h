@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <plumbline/verify/pair.h>
@@ -17,8 +19,15 @@ class BranchSearch {
   /// @param epsilon    rounding unit of the map
   BranchSearch(const Map& map, int dimension, double epsilon);
 
-  /// All that were found, `known` among them, each once.
-  std::vector<Uniforms> preimages(const Vec3& x, std::optional<Uniforms> known = {}) const;
+  /// A point, and numbers that lead there, if any are known.
+  struct Target {
+    Vec3 x{};
+    std::optional<Uniforms> known = {};
+  };
+
+  /// All that were found of each, `known` among them, each once. All points are searched for in
+  /// step, so that the map is asked for many values at once.
+  std::vector<std::vector<Uniforms>> preimages(std::span<const Target> targets) const;
 
  private:
   struct Node {
@@ -26,10 +35,25 @@ class BranchSearch {
     std::optional<Vec3> x;
   };
 
-  std::optional<Vec3> at(const Uniforms& u) const;
+  /// A solution on its way from one start.
+  struct Path {
+    std::size_t target = 0;
+    Vec3 x{};  ///< of the target
+    Uniforms u{};
+    Vec3 here{};
+    double off = 0;  ///< squared distance
+    Uniforms change{};
+    bool lost = false;
+  };
+  using Paths = std::vector<Path*>;
+
+  std::vector<std::optional<Vec3>> at(const std::vector<Uniforms>& u) const;
   std::vector<Uniforms> starts(const Vec3& x) const;
-  std::optional<Uniforms> solve(const Vec3& x, Uniforms u) const;
-  std::optional<Uniforms> step(const Vec3& here, const Vec3& x, const Uniforms& u) const;
+  double enough(const Vec3& x) const;
+  void begin(std::vector<Path>& paths) const;
+  void find_changes(const Paths& paths) const;
+  Paths approach(const Paths& paths) const;
+  Uniforms moved(const Path& path, double length) const;
 
   Map map_;
   int dimension_;

@@ -116,34 +116,62 @@ class Along {
   std::size_t roundings_ = 0;  // steps that show how the map rounds
 };
 
-/// Differences between u and points on one side of it at h, h/2 and h/4, extrapolated twice.
-std::optional<Derivative> one_sided_at(const Map& map, const Uniforms& u, const Vec3& here,
-                                       std::size_t d, double unit, double h) {
-  std::array<Vec3, 3> slope;
-  for (std::size_t i = 0; i < slope.size(); ++i, h /= 2) {
-    Uniforms beside = u;
-    beside[d] += h;
-    if (!(beside[d] > 0 && beside[d] < 1)) return std::nullopt;
-    const auto there = map(beside);
-    if (!there || there->mass > 0) return std::nullopt;
-    slope[i] = combine(1 / h, there->x, -1 / h, here);
-  }
-  const Vec3 coarse = combine(2, slope[1], -1, slope[0]), fine = combine(2, slope[2], -1, slope[1]);
-  const Vec3 value = combine(4.0 / 3, fine, -1.0 / 3, coarse);
-  // The shortest difference enters eight thirds times; h is half its step by now.
-  const double rounding = 8.0 / 3 * 2 * unit / std::abs(2 * h);
-  return Derivative{value, norm(combine(1, value, -1, fine)) + rounding};
-}
+/// The map on one side of u along one number: at h, h/2 and h/4 for several h.
+class OneSide {
+ public:
+  /// @param side  1 or −1
+  OneSide(const Uniforms& u, std::size_t d, int side) : u_(u), d_(d), side_(side) {}
 
-std::optional<Derivative> one_sided(const Map& map, const Uniforms& u, const Vec3& here,
-                                    std::size_t d, double unit, int side) {
-  std::optional<Derivative> best;
-  for (const double step : {0x1p-9, 0x1p-11, 0x1p-13, 0x1p-15}) {
-    const auto next = one_sided_at(map, u, here, d, unit, side * step);
-    if (next && (!best || next->error < best->error)) best = next;
+  static constexpr std::size_t points() { return 3 * kSteps.size(); }
+
+  /// Those that lie outside are asked for at u.
+  void add_points(std::vector<Uniforms>& points) const {
+    for (const double step : kSteps) {
+      for (const double h : {step, step / 2, step / 4}) {
+        points.push_back(u_);
+        if (inside(h)) points.back()[d_] += side_ * h;
+      }
+    }
   }
-  return best;
-}
+
+  std::optional<Derivative> derivative(std::span<const Record> at, const Vec3& here,
+                                       double unit) const {
+    std::optional<Derivative> best;
+    for (std::size_t k = 0; k < kSteps.size(); ++k) {
+      const auto next = extrapolated(at.subspan(3 * k, 3), here, unit, kSteps[k]);
+      if (next && (!best || next->error < best->error)) best = next;
+    }
+    return best;
+  }
+
+ private:
+  static constexpr std::array<double, 4> kSteps = {0x1p-9, 0x1p-11, 0x1p-13, 0x1p-15};
+
+  bool inside(double h) const {
+    const double to = u_[d_] + side_ * h;
+    return to > 0 && to < 1;
+  }
+
+  /// Twice, from three differences.
+  std::optional<Derivative> extrapolated(std::span<const Record> at, const Vec3& here, double unit,
+                                         double h) const {
+    std::array<Vec3, 3> slope;
+    for (std::size_t i = 0; i < slope.size(); ++i, h /= 2) {
+      if (!inside(h) || !at[i] || at[i]->mass > 0) return std::nullopt;
+      slope[i] = combine(side_ / h, at[i]->x, -side_ / h, here);
+    }
+    const Vec3 coarse = combine(2, slope[1], -1, slope[0]),
+               fine = combine(2, slope[2], -1, slope[1]);
+    const Vec3 value = combine(4.0 / 3, fine, -1.0 / 3, coarse);
+    // The shortest difference enters eight thirds times; h is half its step by now.
+    const double rounding = 8.0 / 3 * 2 * unit / (2 * h);
+    return Derivative{value, norm(combine(1, value, -1, fine)) + rounding};
+  }
+
+  Uniforms u_;
+  std::size_t d_;
+  double side_;
+};
 
 /// @param dv  of a map of one number: none
 std::optional<DensityAt> density_from(const Derivative& du, const std::optional<Derivative>& dv) {
@@ -160,27 +188,56 @@ std::optional<DensityAt> density_from(const Derivative& du, const std::optional<
 
 }  // namespace
 
-std::vector<DensityAt> densities_on_one_side(const Map& map, const Uniforms& u, int dimension,
-                                             double epsilon) {
+namespace {
+
+/// Of every choice of sides that gives one.
+///
+/// @param at  samples at u, then on both sides along each number
+std::vector<DensityAt> densities_beside(std::span<const OneSide> sides, std::span<const Record> at,
+                                        double epsilon) {
   std::vector<DensityAt> densities;
-  const auto sample = map(u);
-  if (!sample || sample->mass > 0) return densities;
-  const double unit = epsilon * largest_coordinate(sample->x);
-  const auto sides_of = [&](std::size_t d) {
-    return std::array{one_sided(map, u, sample->x, d, unit, 1),
-                      one_sided(map, u, sample->x, d, unit, -1)};
-  };
+  const Record& here = at[0];
+  if (!here || here->mass > 0) return densities;
+  const double unit = epsilon * largest_coordinate(here->x);
+  std::vector<std::optional<Derivative>> by;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const auto of_side = at.subspan(1 + i * OneSide::points(), OneSide::points());
+    by.push_back(sides[i].derivative(of_side, here->x, unit));
+  }
   const auto add = [&](const Derivative& du, const std::optional<Derivative>& dv) {
     if (const auto density = density_from(du, dv)) densities.push_back(*density);
   };
-  const auto first = sides_of(0);
-  const auto second = dimension == 2 ? sides_of(1) : decltype(first){};
-  for (const auto& du : first) {
-    if (!du) continue;
-    if (dimension == 1) add(*du, std::nullopt);
-    for (const auto& dv : second) {
-      if (dv) add(*du, dv);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!by[i]) continue;
+    if (by.size() == 2) add(*by[i], std::nullopt);
+    for (std::size_t j = 2; j < by.size(); ++j) {
+      if (by[j]) add(*by[i], by[j]);
     }
+  }
+  return densities;
+}
+
+}  // namespace
+
+std::vector<std::vector<DensityAt>> densities_on_one_side(const Map& map,
+                                                          std::span<const Uniforms> u,
+                                                          int dimension, double epsilon) {
+  std::vector<OneSide> sides;
+  std::vector<Uniforms> points;
+  for (const Uniforms& center : u) {
+    points.push_back(center);
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+      for (const int side : {1, -1}) sides.emplace_back(center, d, side).add_points(points);
+    }
+  }
+  const std::vector<Record> samples = ask(map, points);
+  const std::size_t each = 2 * static_cast<std::size_t>(dimension);
+  const std::size_t points_each = 1 + each * OneSide::points();
+  std::vector<std::vector<DensityAt>> densities;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    densities.push_back(densities_beside(std::span(sides).subspan(i * each, each),
+                                         std::span(samples).subspan(i * points_each, points_each),
+                                         epsilon));
   }
   return densities;
 }

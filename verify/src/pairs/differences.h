@@ -37,9 +37,11 @@ std::vector<std::optional<DensityAt>> densities_by_differences(const Map& map,
                                                                int dimension, double epsilon,
                                                                double first_step = 0x1p-4);
 
-/// The same from one side of u in each number, away from a seam on the other: of every choice of
-/// sides that gives one. Each derivative is taken at the step that leaves it the smallest error.
-std::vector<DensityAt> densities_on_one_side(const Map& map, const Uniforms& u, int dimension,
-                                             double epsilon);
+/// The same from one side of u in each number, away from a seam on the other: at each u, of every
+/// choice of sides that gives one. Each derivative is taken at the step that leaves it the smallest
+/// error.
+std::vector<std::vector<DensityAt>> densities_on_one_side(const Map& map,
+                                                          std::span<const Uniforms> u,
+                                                          int dimension, double epsilon);
 
 }  // namespace plumbline::verify

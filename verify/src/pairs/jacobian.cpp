@@ -13,6 +13,7 @@
 #include "pairs/batches.h"
 #include "pairs/branches.h"
 #include "pairs/differences.h"
+#include "pairs/seams.h"
 #include "streams.h"
 #include "text.h"
 
@@ -26,9 +27,6 @@ constexpr double kMostFolds = 0.9;
 // Failing points that a seam may cause by a coincidence of its differences.
 constexpr double kSeamPoints = 2;
 constexpr double kSeamShare = 0.002;
-// Steps with which a point that fails is looked at again: within a pixel of a map, if not before
-// its edge. Coarse ones may straddle a seam and agree by coincidence.
-constexpr double kShortSteps[] = {0x1p-9, 0x1p-13, 0x1p-16};
 // Points at which other branches of the map are looked for, and the share of them that have one in
 // a map that counts as many-to-one.
 constexpr std::size_t kBranchPoints = 200;
@@ -112,64 +110,64 @@ class Jacobian {
                                ? sums_at(to, map)
                                : densities_by_differences(map, from, dimension(), pair_.epsilon);
     const std::vector<double> pdfs = ask(pdf, to);
+    const auto known = [&](std::size_t i) {
+      return densities[i] && densities[i]->relative_error <= tolerance_ / 4;
+    };
+    std::vector<Differing> differing;
+    for (std::size_t i = 0; i < from.size() && !pair_.preimages; ++i) {
+      if (known(i) && !agrees(pdfs[i], *densities[i])) {
+        differing.push_back({from[i], pdfs[i], *densities[i]});
+      }
+    }
+    const std::vector<Closely> looks =
+        look_closely(map, differing, dimension(), pair_.epsilon, tolerance_);
+    auto look = looks.begin();
     for (std::size_t i = 0; i < from.size(); ++i) {
       ++tried_;
-      if (!densities[i] || !(densities[i]->relative_error <= tolerance_ / 4)) {
+      if (!known(i)) {
         ++folds_;
         continue;
       }
-      count(map, from[i], to[i], pdfs[i], *densities[i]);
+      const bool differs = !agrees(pdfs[i], *densities[i]) && !pair_.preimages;
+      count(from[i], to[i], pdfs[i], *densities[i], differs ? *look++ : Closely{});
     }
   }
 
   std::vector<std::optional<DensityAt>> sums_at(const std::vector<Vec3>& points,
                                                 const Map& map) const {
-    std::vector<std::optional<DensityAt>> sums;
-    for (const Vec3& x : points) sums.push_back(sum_over(pair_.preimages(x), map));
-    return sums;
+    std::vector<std::vector<Uniforms>> preimages;
+    for (const Vec3& x : points) preimages.push_back(pair_.preimages(x));
+    return sums_over(preimages, map);
   }
 
   int dimension() const { return pair_.domain.dimension(); }
 
-  /// Density at a point that several random numbers lead to.
-  std::optional<DensityAt> sum_over(const std::vector<Uniforms>& preimages, const Map& map) const {
-    DensityAt sum;
-    for (const auto& d : densities_by_differences(map, preimages, dimension(), pair_.epsilon)) {
-      if (!d) return std::nullopt;
-      sum.value += d->value;
-      sum.relative_error = std::max(sum.relative_error, d->relative_error);
+  /// Densities at points that several random numbers lead to.
+  std::vector<std::optional<DensityAt>> sums_over(
+      const std::vector<std::vector<Uniforms>>& preimages, const Map& map) const {
+    std::vector<Uniforms> all;
+    for (const auto& of_point : preimages) all.insert(all.end(), of_point.begin(), of_point.end());
+    const auto densities = densities_by_differences(map, all, dimension(), pair_.epsilon);
+    std::vector<std::optional<DensityAt>> sums;
+    auto next = densities.begin();
+    for (const auto& of_point : preimages) {
+      std::optional<DensityAt>& sum = sums.emplace_back(DensityAt{});
+      for (std::size_t i = 0; i < of_point.size(); ++i, ++next) {
+        if (!*next) sum.reset();
+        if (!sum) continue;
+        sum->value += (*next)->value;
+        sum->relative_error = std::max(sum->relative_error, (*next)->relative_error);
+      }
     }
-    return sum;
+    return sums;
   }
 
   bool agrees(double pdf, const DensityAt& density) const {
-    return std::abs(pdf / density.value - 1) <= tolerance_ + 4 * density.relative_error;
+    return agree(pdf, density, tolerance_);
   }
 
-  /// What differences that are shorter, or on one side only, say where long ones fail.
-  struct Closely {
-    bool agrees = false;       ///< with the pdf: they are as close, or contradict the long ones
-    bool contradicts = false;  ///< the long ones, which straddle a seam
-  };
-  Closely look_closely(const Map& map, const Uniforms& u, double pdf, const DensityAt& far) const {
-    Closely seen;
-    const auto look = [&](const DensityAt& d) {
-      if (!(d.relative_error <= tolerance_)) return;
-      const double apart = std::abs(far.value / d.value - 1);
-      const bool contradicts = apart > tolerance_ + 4 * (far.relative_error + d.relative_error);
-      seen.contradicts = seen.contradicts || contradicts;
-      if (agrees(pdf, d) && (d.relative_error <= tolerance_ / 4 || contradicts)) seen.agrees = true;
-    };
-    for (const double step : kShortSteps) {
-      if (const auto d = density_by_differences(map, u, dimension(), pair_.epsilon, step)) look(*d);
-    }
-    for (const DensityAt& d : densities_on_one_side(map, u, dimension(), pair_.epsilon)) look(d);
-    return seen;
-  }
-
-  void count(const Map& map, const Uniforms& u, const Vec3& x, double pdf, DensityAt density) {
-    const Closely closely =
-        !agrees(pdf, density) && !pair_.preimages ? look_closely(map, u, pdf, density) : Closely{};
+  void count(const Uniforms& u, const Vec3& x, double pdf, const DensityAt& density,
+             const Closely& closely) {
     if (closely.agrees) {
       ++seams_;
       return;
@@ -207,9 +205,14 @@ class Jacobian {
     double several = 0, looked_at = 0, complete = 0, beyond = 0;
     RatioSeries sums{RatioKind::density_over_pdf, {}};
     double worst = 0;
-    for (const Below& b : below_) {
-      const std::vector<Uniforms> preimages = search.preimages(b.x, b.u);
-      const auto density = sum_over(preimages, pair_.sample);
+    std::vector<BranchSearch::Target> targets;
+    for (const Below& b : below_) targets.push_back({b.x, b.u});
+    const auto all_preimages = search.preimages(targets);
+    const auto densities = sums_over(all_preimages, pair_.sample);
+    for (std::size_t i = 0; i < below_.size(); ++i) {
+      const Below& b = below_[i];
+      const std::vector<Uniforms>& preimages = all_preimages[i];
+      const auto& density = densities[i];
       if (!density || !(density->relative_error <= tolerance_ / 4)) continue;
       ++looked_at;
       several += preimages.size() > 1 ? 1 : 0;
@@ -248,17 +251,25 @@ class Jacobian {
     const BranchSearch search(pair_.sample, dimension(), pair_.epsilon);
     RatioSeries sums{RatioKind::density_over_pdf, {}};
     double several = 0;
-    for (std::size_t i = 0; i < kBranchPoints; ++i) {
-      const Uniforms u{random_.uniform(), dimension() == 1 ? 0 : random_.uniform(), 0};
-      const auto sample = pair_.sample(u);
-      if (!sample || sample->mass > 0) continue;
-      const double pdf = pair_.pdf(sample->x);
-      const std::vector<Uniforms> preimages = search.preimages(sample->x, u);
-      const auto density = sum_over(preimages, pair_.sample);
-      if (!(pdf > 0) || !density || !(density->relative_error <= tolerance_ / 4)) continue;
-      several += preimages.size() > 1 ? 1 : 0;
-      sums.points.push_back({sample->x,
-                             density->value / pdf,
+    std::vector<Uniforms> tried(kBranchPoints);
+    for (Uniforms& u : tried) u = {random_.uniform(), dimension() == 1 ? 0 : random_.uniform(), 0};
+    const std::vector<Record> samples = ask(pair_.sample, tried);
+    std::vector<BranchSearch::Target> targets;
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      if (!samples[i] || samples[i]->mass > 0) continue;
+      targets.push_back({samples[i]->x, tried[i]});
+      points.push_back(samples[i]->x);
+    }
+    const std::vector<double> pdfs = ask(pair_.pdf, points);
+    const auto preimages = search.preimages(targets);
+    const auto densities = sums_over(preimages, pair_.sample);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto& density = densities[i];
+      if (!(pdfs[i] > 0) || !density || !(density->relative_error <= tolerance_ / 4)) continue;
+      several += preimages[i].size() > 1 ? 1 : 0;
+      sums.points.push_back({points[i],
+                             density->value / pdfs[i],
                              std::max(density->relative_error, 256 * pair_.epsilon),
                              -1,
                              {}});
@@ -268,19 +279,35 @@ class Jacobian {
 
   /// pdf = Σ probability · lobe pdf, at points of every lobe.
   void check_mixture() {
-    constexpr int kPoints = 200;
+    constexpr std::size_t kPoints = 200;
     for (const PairLobe& lobe : pair_.lobes) {
-      for (int i = 0; i < kPoints && lobe.probability > 0; ++i) {
-        const auto sample = lobe.sample
-                                ? lobe.sample({draw_uniform(random_), draw_uniform(random_), 0})
-                                : lobe.draw(random_);
-        if (!sample || sample->mass > 0) continue;
-        double sum = 0;
-        for (const PairLobe& l : pair_.lobes) sum += l.probability * l.pdf(sample->x);
+      if (!(lobe.probability > 0)) continue;
+      std::vector<Vec3> points;
+      for (const Record& sample : samples_of(lobe, kPoints)) {
+        if (sample && !(sample->mass > 0)) points.push_back(sample->x);
+      }
+      std::vector<double> sums(points.size());
+      for (const PairLobe& l : pair_.lobes) {
+        const std::vector<double> pdfs = ask(l.pdf, points);
+        for (std::size_t i = 0; i < points.size(); ++i) sums[i] += l.probability * pdfs[i];
+      }
+      const std::vector<double> pdfs = ask(pair_.pdf, points);
+      for (std::size_t i = 0; i < points.size(); ++i) {
         ++tried_;
-        see(sample->x, pair_.pdf(sample->x), {sum, 0});
+        see(points[i], pdfs[i], {sums[i], 0});
       }
     }
+  }
+
+  std::vector<Record> samples_of(const PairLobe& lobe, std::size_t count) {
+    if (lobe.sample) {
+      std::vector<Uniforms> u(count);
+      for (Uniforms& numbers : u) numbers = {draw_uniform(random_), draw_uniform(random_), 0};
+      return ask(lobe.sample, u);
+    }
+    std::vector<Record> samples(count);
+    for (Record& sample : samples) sample = lobe.draw(random_);
+    return samples;
   }
 
   bool more_than_seams(double points) const {

@@ -16,6 +16,7 @@
 #include "pairs/batches.h"
 #include "pairs/battery.h"
 #include "pairs/binned_pair.h"
+#include "pairs/property.h"
 #include "rounding.h"
 #include "streams.h"
 #include "text.h"
@@ -24,75 +25,8 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr std::uint64_t kEnoughRatios = 2'000;
 // Rounding errors that a formula of a few dozen operations may pile up, in units of epsilon.
 constexpr double kRounding = 256;
-
-/// Counts the points where one property holds and where not.
-class Property {
- public:
-  Property(const SamplingPair& pair, const ContractOptions& options, CheckKind kind) {
-    outcome_.result.kind = kind;
-    outcome_.result.subject = pair.name + "/" + std::string(to_string(kind));
-    outcome_.result.seed = options.seed;
-    outcome_.result.reference = 0;
-  }
-
-  void seen_as(RatioKind kind) { outcome_.ratios.kind = kind; }
-
-  /// @param reason  only built where it failed
-  template <class Reason>
-  void hold(bool holds, const Reason& reason) {
-    ++tested_;
-    if (holds) return;
-    if (failed_++ == 0) outcome_.result.reason = reason();
-  }
-
-  /// @param channel  that it is one of, where it is of a colour
-  void ratio(const Vec3& x, double value, std::size_t channel = 0) {
-    if (outcome_.ratios.points.size() >= kEnoughRatios) return;
-    outcome_.ratios.points.push_back({x, value, 0});
-    channels_.push_back(channel);
-  }
-
-  const std::vector<RatioAt>& ratios() const { return outcome_.ratios.points; }
-  const std::vector<std::size_t>& channels() const { return channels_; }
-
-  /// @param errors  of the ratios, relative
-  void add_errors(const std::vector<double>& errors) {
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-      outcome_.ratios.points[i].error += errors[i];
-    }
-  }
-
-  void deviation(double relative) {
-    if (!(relative <= worst_)) worst_ = relative;
-  }
-
-  bool tested() const { return tested_ > 0; }
-
-  PointwiseOutcome finish() {
-    CheckResult& r = outcome_.result;
-    r.samples = tested_;
-    r.verdict = failed_ == 0 ? Verdict::pass : Verdict::fail;
-    if (failed_ > 0) {
-      r.reason += " (" + number(failed_) + " of " + number(tested_) + " points fail)";
-    }
-    r.estimate = r.bound = worst_;
-    r.leaned_on = "points tested";
-    return std::move(outcome_);
-  }
-
- private:
-  PointwiseOutcome outcome_;
-  std::vector<std::size_t> channels_;  // of the ratios
-  std::uint64_t tested_ = 0, failed_ = 0;
-  double worst_ = 0;
-};
-
-bool all_finite(const Vec3& x) {
-  return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
-}
 
 bool all_finite(const Channels& c) {
   return std::all_of(c.value.begin(), c.value.begin() + static_cast<std::ptrdiff_t>(c.count),
@@ -138,6 +72,8 @@ class Pointwise {
   }
 
  private:
+  static constexpr std::size_t kSides = 4;
+
   /// u at, near and away from the corners of the unit square.
   void see_corners() {
     const double last = 1 - pair_.epsilon;
@@ -174,26 +110,33 @@ class Pointwise {
     const std::vector<double> densities = ask(pair_.pdf, points);
     const std::vector<Channels> values =
         pair_.value ? ask(pair_.value, points) : std::vector<Channels>(points.size());
+    std::vector<Vec3> unseen;
     for (std::size_t i = 0; i < points.size(); ++i) {
       see_density(points[i], densities[i], values[i]);
+      if (!(densities[i] > 0) && largest_of(values[i]) > 0) unseen.push_back(points[i]);
+    }
+    const std::vector<bool> rounded = positive_near(pair_, unseen);
+    for (std::size_t i = 0; i < unseen.size(); ++i) {
+      support_.hold(rounded[i], [&] {
+        return "pdf is 0 where f·|cosθ| is " + number(largest_of(pair_.value(unseen[i]))) +
+               ", at " + place(unseen[i]);
+      });
     }
   }
 
+  static double largest_of(const Channels& value) {
+    double largest = 0;
+    for (std::size_t c = 0; c < value.count; ++c) largest = std::max(largest, std::abs(value[c]));
+    return largest;
+  }
+
+  /// But for a density that is 0 beside a value.
   void see_density(const Vec3& x, double pdf, const Channels& value) {
     finite_.hold(pdf >= 0 && std::isfinite(pdf),
                  [&] { return "pdf is " + number(pdf) + " at " + place(x); });
     if (!pair_.value) return;
     finite_.hold(all_finite(value), [&] { return "f is not finite at " + place(x); });
-    double largest = 0;
-    for (std::size_t c = 0; c < value.count; ++c) largest = std::max(largest, std::abs(value[c]));
-    if (largest == 0) return;
-    support_.hold(pdf > 0 || positive_near(pair_, x), [&] {
-      return "pdf is 0 where f·|cosθ| is " + number(largest) + ", at " + place(x);
-    });
-  }
-
-  static bool has_density(const Record& sample) {
-    return sample && !(sample->mass > 0) && all_finite(sample->x);
+    if (pdf > 0 && largest_of(value) > 0) support_.hold(true, [] { return std::string(); });
   }
 
   bool has_weight(const SampleRecord& sample) const {
@@ -211,6 +154,7 @@ class Pointwise {
     const std::vector<double> densities = ask(pair_.pdf, points);
     const std::vector<Channels> values =
         weighed.empty() ? std::vector<Channels>() : ask(pair_.value, weighed);
+    const std::vector<Spread> spreads = spreads_of(samples, densities, values);
     std::size_t density = 0, value = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const Record& sample = samples[i];
@@ -221,28 +165,102 @@ class Pointwise {
       };
       see_point(*sample, where);
       if (!has_density(sample)) continue;
+      const Spread& spread = spreads[density];
       const double pdf = densities[density++];
-      see_pdf(*sample, pdf, where);
-      if (has_weight(*sample)) see_weight(*sample, pdf, values[value++], where);
+      see_pdf(*sample, pdf, spread, where);
+      if (has_weight(*sample)) see_weight(*sample, pdf, values[value++], spread, where);
     }
+  }
+
+  /// Largest changes of the density and the value within rounding of a point.
+  struct Spread {
+    bool positive_near = false;  ///< of a density that is 0
+    double pdf = 0;
+    Channels value{};
+  };
+
+  /// Of the samples with a density: 0 where nothing that they state differs.
+  std::vector<Spread> spreads_of(std::span<const Record> samples,
+                                 const std::vector<double>& densities,
+                                 const std::vector<Channels>& values) const {
+    std::vector<Spread> spreads(densities.size());
+    std::vector<std::size_t> differing, weighed, zero;
+    std::vector<Vec3> around, around_weighed, points_of_zero;
+    std::size_t density = 0, value = 0;
+    for (const Record& sample : samples) {
+      if (!has_density(sample)) continue;
+      const Channels none{}, &own = has_weight(*sample) ? values[value] : none;
+      if (!discrete_ && densities[density] == 0) {
+        zero.push_back(density);
+        points_of_zero.push_back(sample->x);
+      }
+      if (!discrete_ && differs(*sample, densities[density], own)) {
+        differing.push_back(density);
+        add_neighbours(sample->x, around);
+        if (has_weight(*sample)) {
+          weighed.push_back(density);
+          spreads[density].value = own;
+          add_neighbours(sample->x, around_weighed);
+        }
+      }
+      ++density;
+      if (has_weight(*sample)) ++value;
+    }
+    const std::vector<double> pdfs = ask(pair_.pdf, around);
+    for (std::size_t i = 0; i < pdfs.size(); ++i) {
+      const std::size_t at = differing[i / kSides];
+      spreads[at].pdf = std::max(spreads[at].pdf, std::abs(pdfs[i] - densities[at]));
+    }
+    const std::vector<bool> near = positive_near(pair_, points_of_zero);
+    for (std::size_t i = 0; i < zero.size(); ++i) spreads[zero[i]].positive_near = near[i];
+    if (!weighed.empty()) add_spreads_of_values(weighed, ask(pair_.value, around_weighed), spreads);
+    return spreads;
+  }
+
+  /// @param spreads  with the values at the points themselves
+  void add_spreads_of_values(const std::vector<std::size_t>& of,
+                             const std::vector<Channels>& around,
+                             std::vector<Spread>& spreads) const {
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      Channels& value = spreads[of[k]].value;
+      for (std::size_t c = 0; c < value.count; ++c) {
+        double spread = 0;
+        for (std::size_t i = kSides * k; i < kSides * (k + 1); ++i) {
+          spread = std::max(spread, std::abs(around[i][c] - value[c]));
+        }
+        value.value[c] = spread;
+      }
+    }
+  }
+
+  void add_neighbours(const Vec3& x, std::vector<Vec3>& points) const {
+    for (std::size_t k = 0; k < kSides; ++k) points.push_back(beside(x, k));
+  }
+
+  bool differs(const SampleRecord& sample, double pdf, const Channels& value) const {
+    if (sample.pdf && !agree(*sample.pdf, pdf, 0)) return true;
+    for (std::size_t c = 0; c < std::min(sample.weight.count, value.count); ++c) {
+      if (!agree(sample.weight[c] * pdf, value[c], 0)) return true;
+    }
+    return false;
   }
 
   template <class Where>
   void see_point(const SampleRecord& sample, const Where& where) {
-    finite_.hold(all_finite(sample.x) && all_finite(sample.weight),
+    finite_.hold(is_finite(sample.x) && all_finite(sample.weight),
                  [&] { return "sample or weight is not finite at " + where(); });
-    if (!all_finite(sample.x)) return;
+    if (!is_finite(sample.x)) return;
     support_.hold(in_domain(sample.x), [&] { return "sample outside the domain at " + where(); });
     if (sample.mass > 0) see_atom(sample);
   }
 
   template <class Where>
-  void see_pdf(const SampleRecord& sample, double pdf, const Where& where) {
+  void see_pdf(const SampleRecord& sample, double pdf, const Spread& spread, const Where& where) {
     finite_.hold(pdf >= 0 && std::isfinite(pdf),
                  [&] { return "pdf is " + number(pdf) + " at " + where(); });
-    support_.hold(pdf > 0 || !(pdf == 0) || (!discrete_ && positive_near(pair_, sample.x)),
+    support_.hold(pdf > 0 || !(pdf == 0) || spread.positive_near,
                   [&] { return "pdf is 0 at a sample, " + where(); });
-    see_record(sample, pdf, where);
+    see_record(sample, pdf, spread, where);
   }
 
   bool in_domain(const Vec3& x) const {
@@ -262,10 +280,11 @@ class Pointwise {
   }
 
   template <class Where>
-  void see_record(const SampleRecord& sample, double pdf, const Where& where) {
+  void see_record(const SampleRecord& sample, double pdf, const Spread& spread,
+                  const Where& where) {
     if (!sample.pdf) return;
     const double stated = *sample.pdf;
-    const bool agrees = agree(stated, pdf, sample.x, pair_.pdf);
+    const bool agrees = agree(stated, pdf, spread.pdf);
     record_.hold(agrees, [&] {
       return "the record states pdf " + number(stated) + ", pdf() gives " + number(pdf) + " at " +
              where();
@@ -276,16 +295,13 @@ class Pointwise {
 
   template <class Where>
   void see_weight(const SampleRecord& sample, double pdf, const Channels& value,
-                  const Where& where) {
-    double largest = 0;
-    for (std::size_t c = 0; c < value.count; ++c) largest = std::max(largest, std::abs(value[c]));
+                  const Spread& spread, const Where& where) {
+    const double largest = largest_of(value);
     bool agrees = sample.weight.count == value.count;
     for (std::size_t c = 0; c < value.count && agrees; ++c) {
-      const auto of_channel = [&](const Vec3& x) { return pair_.value(x)[c]; };
       const double product = sample.weight[c] * pdf;
-      agrees = agree(product, value[c], sample.x, of_channel) ||
-               agree(product, value[c], sample.x,
-                     [&](const Vec3& x) { return sample.weight[c] * pair_.pdf(x); });
+      agrees = agree(product, value[c], spread.value[c]) ||
+               agree(product, value[c], std::abs(sample.weight[c]) * spread.pdf);
       if (value[c] == largest && largest > 0) {
         weight_.ratio(sample.x, product / value[c], c);
         if (agrees) weight_.deviation(std::abs(product / value[c] - 1));
@@ -320,11 +336,10 @@ class Pointwise {
                                 const NumberOf& number_of) const {
     std::vector<double> spreads(ratios.size(), 0.0);
     if (discrete_) return spreads;
-    constexpr std::size_t kSides = 4;
     std::vector<Vec3> points;
     for (const RatioAt& r : ratios) {
       points.push_back(r.x);
-      for (std::size_t k = 0; k < kSides; ++k) points.push_back(beside(r.x, k));
+      add_neighbours(r.x, points);
     }
     const std::vector<R> values = ask(f, points);
     for (std::size_t i = 0; i < ratios.size(); ++i) {
@@ -337,22 +352,15 @@ class Pointwise {
     return spreads;
   }
 
-  /// A neighbour within rounding, in one of four directions.
+  /// A neighbour within rounding, in one of kSides directions.
   Vec3 beside(const Vec3& x, std::size_t side) const {
     const double angle = static_cast<double>(side) * std::numbers::pi / 2;
     return pair_.domain.chart().near(x, 8 * pair_.epsilon, angle);
   }
 
-  /// Equal up to rounding: of the numbers themselves, or of the point that f is asked at.
-  template <class F>
-  bool agree(double a, double b, const Vec3& x, const F& f) const {
-    return equal_up_to_rounding(a, b, pair_.epsilon, [&] {
-      double spread = 0;
-      for (std::size_t k = 0; k < 4 && !discrete_; ++k) {
-        spread = std::max(spread, std::abs(f(beside(x, k)) - f(x)));
-      }
-      return 16 * spread;
-    });
+  /// Equal up to rounding: of the numbers themselves, or of the point that one is asked at.
+  bool agree(double a, double b, double spread) const {
+    return equal_up_to_rounding(a, b, pair_.epsilon, [&] { return 16 * spread; });
   }
 
   const SamplingPair& pair_;
