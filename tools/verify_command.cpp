@@ -16,6 +16,7 @@
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/reports/results.h>
 #include <plumbline/verify/bsdf.h>
+#include <plumbline/verify/conventions.h>
 #include <plumbline/verify/detail/stopwatch.h>
 
 #include "command.h"
@@ -168,6 +169,16 @@ int run_verify(const VerifyArguments& arguments) {
   }
 }
 
+/// A line for each word.
+std::string convention_lines() {
+  std::string lines;
+  for (const verify::conventions::Word& known : verify::conventions::words()) {
+    lines += fmt::format("  {:23} {}\n", known.word, known.meaning);
+  }
+  return lines;
+}
+
+/// With room for the lines of the conventions.
 constexpr const char* kVerifyFooter =
     R"(The program answers queries by the protocol of docs/protocol.md: examples/answerers/ has one in C, Python,
 JavaScript and Go. Its standard error is shown. Exit codes: 0 all checks pass, 1 one does not, 2 the program does
@@ -175,15 +186,16 @@ not do as the protocol says.
 
 Domains: bsdf, sphere, hemisphere, disk, disk:RADIUS, square, triangle, interval, interval:LOW:HIGH, half-line:SCALE,
 line:CENTER:SCALE, discrete:SIZE, equirectangular:COLUMNSxROWS, octahedral:PIXELS.
-Conventions: cosine-in-eval, sampled-direction-first, given-points-in, y-up, normal:X,Y,Z (world space),
-zero-pdf-is-failure, projected-pdf, weight-is-f, weight-is-f-cosine, weight-unused.
-The file of --options is a JSON object: {"exec": "./mine", "angles": [0, 60], "conventions": ["y-up"]}; its names
+Conventions, a renderer's name, which says all of its own, before single ones:
+{}  normal:X,Y,Z            directions are in world space, around that normal
+
+The file of --options is a JSON object: {{"exec": "./mine", "angles": [0, 60], "conventions": ["y-up"]}}; its names
 are exec, exchange, name, domain, timeout, eta, angles, conventions, faces, reciprocal, conserves_energy, quick,
 samples, seed.
 
 Examples:
   plumbline verify --exec ./mine --self-test
-  plumbline verify --exec ./mine --angles 0,60,80 --faces front
+  plumbline verify --exec ./mine --convention mitsuba --angles 0,60,80 --faces front
   plumbline verify --exec 'python3 light.py' --domain sphere --json light.jsonl
   plumbline verify --exec ./batch_job --exchange /tmp/queries --timeout 600)";
 
@@ -253,7 +265,7 @@ void add_verify_command(options::CommandLine& line) {
       .type("FILE");
   command.add("--results", arguments->results, "Directory to add the results to, for report")
       .type("DIR");
-  command.footer(kVerifyFooter);
+  command.footer(fmt::format(kVerifyFooter, convention_lines()));
   command.runs([arguments] { return run_verify(*arguments); });
 }
 

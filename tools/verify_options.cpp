@@ -3,44 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/scene_file/nearest_name.h>
+#include <plumbline/verify/conventions.h>
 
 namespace plumbline::tools {
 namespace {
 
-using Conventions = verify::BsdfConventions;
 using Given = reports::VerifyOptionsFile;
-
-struct ConventionWord {
-  const char* word;
-  void (*put)(Conventions&);
-};
-
-constexpr std::array kConventions = {
-    ConventionWord{"cosine-in-eval", [](Conventions& c) { c.cosine_in_eval = true; }},
-    ConventionWord{"sampled-direction-first",
-                   [](Conventions& c) { c.sampled_direction_first = true; }},
-    ConventionWord{"given-points-in", [](Conventions& c) { c.given_points_in = true; }},
-    ConventionWord{"y-up", [](Conventions& c) { c.frame = Conventions::Frame::local_y_up; }},
-    ConventionWord{"zero-pdf-is-failure", [](Conventions& c) { c.zero_pdf_is_failure = true; }},
-    ConventionWord{"projected-pdf", [](Conventions& c) { c.projected_pdf = true; }},
-    ConventionWord{"weight-is-f", [](Conventions& c) { c.weight = Conventions::Weight::f; }},
-    ConventionWord{"weight-is-f-cosine",
-                   [](Conventions& c) { c.weight = Conventions::Weight::f_cosine; }},
-    ConventionWord{"weight-unused", [](Conventions& c) { c.weight = Conventions::Weight::unused; }},
-};
-
-constexpr std::string_view kNormal = "normal:";
 
 /// Numbers with commas between; nothing where there is anything else.
 std::optional<std::vector<double>> numbers_of(std::string_view text) {
@@ -54,18 +33,6 @@ std::optional<std::vector<double>> numbers_of(std::string_view text) {
     if (text.front() != ',') return std::nullopt;
     text.remove_prefix(1);
   }
-}
-
-/// The frame of a world in which the surface has that normal.
-void put_normal(const std::string& word, Conventions& conventions) {
-  const auto numbers = numbers_of(std::string_view(word).substr(kNormal.size()));
-  if (!numbers || numbers->size() != 3 ||
-      !(std::hypot((*numbers)[0], (*numbers)[1], (*numbers)[2]) > 0)) {
-    throw renderer::InputError("--convention " + word + ": must read normal:X,Y,Z, not all 0");
-  }
-  const double length = std::hypot((*numbers)[0], (*numbers)[1], (*numbers)[2]);
-  conventions.frame = Conventions::Frame::world;
-  for (std::size_t i = 0; i < 3; ++i) conventions.normal[i] = (*numbers)[i] / length;
 }
 
 std::string in_shell_quotes(const std::string& text) {
@@ -101,27 +68,27 @@ void complete(std::optional<T>& given, std::optional<T>& from_file) {
 
 std::vector<std::string> convention_words() {
   std::vector<std::string> words;
-  for (const ConventionWord& known : kConventions) words.emplace_back(known.word);
+  for (const verify::conventions::Word& known : verify::conventions::words()) {
+    words.emplace_back(known.word);
+  }
   words.emplace_back("normal:X,Y,Z");
   return words;
 }
 
-Conventions parse_conventions(const std::vector<std::string>& words) {
-  Conventions conventions;
+verify::BsdfConventions parse_conventions(const std::vector<std::string>& words) {
+  const std::vector<std::string> known = convention_words();
   for (const std::string& word : words) {
-    if (word.rfind(kNormal, 0) == 0) {
-      put_normal(word, conventions);
-      continue;
-    }
-    const auto known = std::find_if(kConventions.begin(), kConventions.end(),
-                                    [&](const ConventionWord& w) { return w.word == word; });
-    if (known == kConventions.end()) {
+    const bool is_known = std::find(known.begin(), known.end(), word) != known.end();
+    if (!is_known && !word.starts_with("normal:")) {
       throw renderer::InputError(fmt::format("--convention {}: there is no such convention; {}",
-                                             word, renderer::name_hint(word, convention_words())));
+                                             word, renderer::name_hint(word, known)));
     }
-    known->put(conventions);
   }
-  return conventions;
+  try {
+    return verify::conventions::from_words(words);
+  } catch (const std::invalid_argument& error) {
+    throw renderer::InputError(fmt::format("--convention {}", error.what()));
+  }
 }
 
 std::vector<double> parse_angles(const std::string& text) {

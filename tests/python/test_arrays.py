@@ -135,8 +135,8 @@ def test_an_interrupt_is_heard_where_no_python_runs():
     [
         (dict(numbers=4), ValueError),
         (dict(dtype="float16"), ValueError),
-        (dict(frame="x-up"), ValueError),
-        (dict(weight="luminance"), ValueError),
+        (dict(conventions="x-up"), ValueError),
+        (dict(conventions=["y-up", "mitsuba"]), ValueError),
         (dict(eta="glass"), TypeError),
         (dict(albedo=lambda wo: 0.5), ValueError),
     ],

@@ -27,14 +27,14 @@ class Elsewhere:
     """A diffuse reflection by every convention that is not ours: y up, the given direction towards
     the surface and last, pdf per projected solid angle and 0 for what failed, f·|cosθ|."""
 
-    STATED = dict(
-        frame="y-up",
-        cosine_in_eval=True,
-        sampled_direction_first=True,
-        given_points_in=True,
-        zero_pdf_is_failure=True,
-        projected_pdf=True,
-        weight="f-cosine",
+    STATED = (
+        "y-up",
+        "cosine-in-eval",
+        "sampled-direction-first",
+        "given-points-in",
+        "zero-pdf-is-failure",
+        "projected-pdf",
+        "weight-is-f-cosine",
     )
 
     def sample(self, arriving, u):
@@ -56,14 +56,14 @@ class Elsewhere:
 
 
 def test_stated_conventions_are_understood():
-    report = check(Elsewhere(), **Elsewhere.STATED)
+    report = check(Elsewhere(), conventions=Elsewhere.STATED)
     assert report.ok, report
 
 
-@pytest.mark.parametrize("left_out", ["cosine_in_eval", "given_points_in"])
+@pytest.mark.parametrize("left_out", ["cosine-in-eval", "given-points-in"])
 def test_a_convention_that_is_not_stated_is_missed(left_out):
-    stated = {k: v for k, v in Elsewhere.STATED.items() if k != left_out}
-    report = check(Elsewhere(), **stated, conserves_energy=False, reciprocal=False)
+    stated = [word for word in Elsewhere.STATED if word != left_out]
+    report = check(Elsewhere(), conventions=stated, conserves_energy=False, reciprocal=False)
     assert not report.ok
 
 
@@ -83,9 +83,19 @@ def test_world_frame_is_around_the_normal():
         def eval(self, wo, wi):
             return super().eval(wo @ to_world.T, wi @ to_world.T)
 
-    options = dict(frame="world", normal=tuple(normal), conserves_energy=False, reciprocal=False)
-    report = check(World(), **options)
+    conventions = "normal:{},{},{}".format(*normal)
+    report = check(World(), conventions=conventions, conserves_energy=False, reciprocal=False)
     assert report.ok, report
+
+
+def test_a_renderers_name_says_all_conventions():
+    class Mitsuba(Lambert):
+        def eval(self, wo, wi):
+            return super().eval(wo, wi) * np.abs(wi[:, 2])
+
+    assert check(Mitsuba(), conventions="mitsuba").ok
+    assert not check(Mitsuba(), conventions="pbrt", reciprocal=False).ok
+    assert "mitsuba" in plumbline.CONVENTIONS
 
 
 def test_an_atom_states_its_mass():

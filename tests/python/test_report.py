@@ -67,4 +67,5 @@ def test_type_stubs_name_what_is_there():
             ]
     assert not missing
     stubbed = {node.name for node in tree.body if hasattr(node, "name")}
+    stubbed |= {node.target.id for node in tree.body if isinstance(node, ast.AnnAssign)}
     assert {name for name in vars(_core) if not name.startswith("_")} <= stubbed

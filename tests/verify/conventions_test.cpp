@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 #include <plumbline_tests/support.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <plumbline/verify/bsdf.h>
 #include <plumbline/verify/conventions.h>
@@ -29,6 +32,43 @@ BsdfOptions options_with(const std::string& name, const BsdfConventions& convent
 
 Report report_of(const std::string& name, const ErasedBsdf& bsdf, const BsdfOptions& options) {
   return check_bsdf(name, apply_conventions(bsdf, options.conventions), options);
+}
+
+TEST(ConventionWords, SayWhatTheNamesInCodeSay) {
+  using conventions::from_words;
+  EXPECT_EQ(from_words(std::vector<std::string>{}), BsdfConventions{});
+  EXPECT_EQ(from_words(std::vector<std::string>{"blender"}), conventions::blender());
+  BsdfConventions y_up = conventions::mitsuba();
+  y_up.frame = BsdfConventions::Frame::local_y_up;
+  EXPECT_EQ(from_words(std::vector<std::string>{"mitsuba", "y-up"}), y_up);
+  BsdfConventions world;
+  world.frame = BsdfConventions::Frame::world;
+  world.normal = {0.6, 0, -0.8};
+  EXPECT_EQ(from_words(std::vector<std::string>{"normal:3,0,-4"}), world);
+}
+
+TEST(ConventionWords, EachSaysSomethingOfItsOwn) {
+  std::vector<BsdfConventions> seen{{}};
+  for (const conventions::Word& known : conventions::words()) {
+    const BsdfConventions c = conventions::from_words(std::vector{std::string(known.word)});
+    EXPECT_NE(c, BsdfConventions{}) << known.word;
+    if (known.all) continue;  // renderers may agree
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), c), 0) << known.word;
+    seen.push_back(c);
+  }
+}
+
+TEST(ConventionWords, RefuseWhatTheyDoNotKnow) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"mitsubaa"},
+                                                {"y-up", "mitsuba"},
+                                                {"normal:0,0,0"},
+                                                {"normal:1,2"},
+                                                {"normal:1,2,3,4"},
+                                                {"normal:1,nan,0"},
+                                                {"normal:inf,0,0"},
+                                                {""}}) {
+    EXPECT_THROW(conventions::from_words(words), std::invalid_argument) << words.back();
+  }
 }
 
 /// Of the pointwise checks, which see at once that weight · pdf is not f·|cosθ|.

@@ -9,10 +9,7 @@ def test_samples_what_its_pdf_says():
         sample=bsdf.sample,
         pdf=bsdf.pdf,
         eval=bsdf.eval,
-        frame="y-up",
-        cosine_in_eval=True,
-        weight="f-cosine",
-        zero_pdf_is_failure=True,
+        conventions=["y-up", "cosine-in-eval", "weight-is-f-cosine", "zero-pdf-is-failure"],
         back=False,  # black from below
         angles=[40],  # degrees
         random_directions=0,

@@ -12,7 +12,7 @@ unless a convention says otherwise. A density names its measure: of directions i
 """
 
 from ._bsdf import Lobe, check_bsdf
-from ._core import CheckResult, Domain, ImageResult, Report
+from ._core import CONVENTIONS, CheckResult, Domain, ImageResult, Report
 from ._effort import Effort
 from ._estimates import check_agreement, check_mean, check_proportion, check_variance_ratio
 from ._html import html_of_report
@@ -23,6 +23,7 @@ from ._samples import Samples
 Report._repr_html_ = html_of_report  # type: ignore[attr-defined, method-assign]
 
 __all__ = [
+    "CONVENTIONS",
     "CheckResult",
     "Domain",
     "Effort",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Callable, Mapping, Optional, Sequence, Tuple
+from typing import Callable, Mapping, Optional, Sequence, Union
 
 from numpy.typing import DTypeLike
 
@@ -35,14 +35,7 @@ def check_bsdf(
     numbers: int = 2,
     dtype: DTypeLike = "float64",
     lobes: Sequence[Lobe] = (),
-    frame: str = "z-up",
-    normal: Tuple[float, float, float] = (0.0, 0.0, 1.0),
-    cosine_in_eval: bool = False,
-    sampled_direction_first: bool = False,
-    given_points_in: bool = False,
-    zero_pdf_is_failure: bool = False,
-    projected_pdf: bool = False,
-    weight: str = "throughput",
+    conventions: Union[str, Sequence[str]] = (),
     angles: Sequence[float] = (0, 60, 80, 88, 89.9),
     random_directions: int = 1,
     front: bool = True,
@@ -74,15 +67,10 @@ def check_bsdf(
         dtype: float32 or float64, the arithmetic of the functions: what arrays they get and how
             closely they can be expected to agree. They may return more, not less.
         lobes: of a mixture that exposes them; each is then checked as if it were the whole.
-        frame: ``"z-up"``, ``"y-up"`` (local frames), or ``"world"``, around `normal`.
-        normal: unit, for ``frame="world"``.
-        cosine_in_eval: `eval` returns f·|cosθi| instead of f.
-        sampled_direction_first: `eval` and `pdf` take (wi, wo).
-        given_points_in: wo points towards the surface, like a ray that arrives.
-        zero_pdf_is_failure: a pdf of 0 means that the sample failed.
-        projected_pdf: the pdf is per projected solid angle, pdf_w = pdf·|cosθi|.
-        weight: what the weight is: ``"throughput"`` (f·|cosθi|/pdf), ``"f"``, ``"f-cosine"``
-            (f·|cosθi|), or ``"unused"`` (not checked).
+        conventions: where the functions write things down otherwise, words of
+            `plumbline.CONVENTIONS`: a renderer's name, which says all (``"mitsuba"``), before single
+            ones (``"y-up"``), and ``"normal:X,Y,Z"`` for directions in world space around that
+            normal.
         angles: from the normal [degrees], looked at from both faces at a random azimuth.
         random_directions: more for each face, uniform on the hemisphere.
         front: whether to look from the side of the normal.
@@ -99,7 +87,8 @@ def check_bsdf(
         effort: how hard to look.
 
     Raises:
-        ValueError: for an array of a wrong shape or dtype, with the function and what was wanted.
+        ValueError: for an array of a wrong shape or dtype, with the function and what was wanted;
+            for a convention that is not known.
     """
     needs(sample=sample, pdf=pdf, eval=eval)
     single = is_single(dtype)
@@ -107,17 +96,7 @@ def check_bsdf(
     for lobe in lobes:
         needs(probability=lobe.probability, sample=lobe.sample, pdf=lobe.pdf)
         bsdf.add_lobe(lobe.probability, lobe.sample, lobe.pdf, checked_numbers(lobe.numbers))
-    conventions = filled(
-        _core.BsdfConventions(),
-        cosine_in_eval=cosine_in_eval,
-        sampled_direction_first=sampled_direction_first,
-        given_points_in=given_points_in,
-        normal=normal,
-        zero_pdf_is_failure=zero_pdf_is_failure,
-        projected_pdf=projected_pdf,
-    )
-    conventions.set_frame(frame)
-    conventions.set_weight(weight)
+    words = [conventions] if isinstance(conventions, str) else list(conventions)
     options = filled(
         _core.BsdfOptions(),
         contract=effort.contract(seed),
@@ -134,4 +113,4 @@ def check_bsdf(
         options.set_albedo(albedo, single)
     for suspect, value in (suspects or {}).items():
         options.add_suspect(suspect, value, single)
-    return repeatable(_core.check_bsdf(name, bsdf, conventions, options))
+    return repeatable(_core.check_bsdf(name, bsdf, words, options))

@@ -47,7 +47,7 @@ class Report:
 
     ok: bool
     """Everything passes that was not skipped, which a check declares. A fail is never ok; nor is a
-    report without results. `assert report.ok, report`: the report itself is always true."""
+    report without results. What the report is as a bool, too."""
     as_expected: bool
     """Every result is what its check declares, and there is one."""
     verdict: str
@@ -63,6 +63,7 @@ class Report:
     def __init__(self, results: Sequence[CheckResult] = ...) -> None: ...
     def append(self, other: Report) -> None: ...
     def summary(self) -> str: ...
+    def __bool__(self) -> bool: ...
 
 class ImageResult:
     check: CheckResult
@@ -142,16 +143,6 @@ class SamplingPair:
     def add_atom(self, x: Tuple[float, float, float], mass: float) -> None: ...
     def add_suspect(self, name: str, value: Callable) -> None: ...
 
-class BsdfConventions:
-    cosine_in_eval: bool
-    sampled_direction_first: bool
-    given_points_in: bool
-    normal: Tuple[float, float, float]
-    zero_pdf_is_failure: bool
-    projected_pdf: bool
-    def set_frame(self, word: str) -> None: ...
-    def set_weight(self, word: str) -> None: ...
-
 class BsdfOptions:
     contract: ContractOptions
     angles: List[float]
@@ -212,9 +203,11 @@ class ImageChannel:
         self, mean: NDArray, variance: Optional[NDArray], count: Optional[NDArray]
     ) -> None: ...
 
+CONVENTIONS: Dict[str, str]
+
 def check_pair(pair: SamplingPair, options: ContractOptions) -> Report: ...
 def check_bsdf(
-    name: str, bsdf: Bsdf, conventions: BsdfConventions, options: BsdfOptions
+    name: str, bsdf: Bsdf, conventions: Sequence[str], options: BsdfOptions
 ) -> Report: ...
 def check_mean(options: MeanOptions, samples: object) -> CheckResult: ...
 def check_agreement(options: MeanOptions, a: object, b: object) -> CheckResult: ...

@@ -2,20 +2,19 @@
 #include <pybind11/stl.h>
 
 #include <string>
-#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <plumbline/verify/bsdf.h>
+#include <plumbline/verify/conventions.h>
 
 #include "bindings.h"
 #include "function.h"
-#include "words.h"
 
 namespace plumbline::python {
 
 namespace {
 
-using verify::BsdfConventions;
 using verify::BsdfLobe;
 using verify::BsdfOptions;
 using verify::ErasedBsdf;
@@ -75,18 +74,13 @@ void add_bsdf_suspect(BsdfOptions& options, const std::string& name, const py::o
   options.suspects.push_back({name, [f](const Triple& wo, const Triple& wi) { return f(wo, wi); }});
 }
 
-void bind_conventions(py::module_& module) {
-  py::class_<BsdfConventions>(module, "BsdfConventions")
-      .def(py::init<>())
-      .def_readwrite("cosine_in_eval", &BsdfConventions::cosine_in_eval)
-      .def_readwrite("sampled_direction_first", &BsdfConventions::sampled_direction_first)
-      .def_readwrite("given_points_in", &BsdfConventions::given_points_in)
-      .def_readwrite("normal", &BsdfConventions::normal)
-      .def_readwrite("zero_pdf_is_failure", &BsdfConventions::zero_pdf_is_failure)
-      .def_readwrite("projected_pdf", &BsdfConventions::projected_pdf)
-      .def("set_frame", [](BsdfConventions& c, std::string_view word) { c.frame = frame_of(word); })
-      .def("set_weight",
-           [](BsdfConventions& c, std::string_view word) { c.weight = weight_of(word); });
+py::dict convention_words() {
+  py::dict words;
+  for (const verify::conventions::Word& known : verify::conventions::words()) {
+    words[py::str(std::string(known.word))] = std::string(known.meaning);
+  }
+  words["normal:X,Y,Z"] = "directions are in world space, around that normal";
+  return words;
 }
 
 void bind_bsdf_options(py::module_& module) {
@@ -108,7 +102,7 @@ void bind_bsdf_options(py::module_& module) {
 }  // namespace
 
 void bind_bsdfs(py::module_& module) {
-  bind_conventions(module);
+  module.attr("CONVENTIONS") = convention_words();
   bind_bsdf_options(module);
   py::class_<ErasedBsdf>(module, "Bsdf")
       .def(py::init(&make_bsdf), py::arg("sample"), py::arg("pdf"), py::arg("eval"),
@@ -116,8 +110,9 @@ void bind_bsdfs(py::module_& module) {
       .def("add_lobe", &add_bsdf_lobe);
   module.def(
       "check_bsdf",
-      [](const std::string& name, const ErasedBsdf& bsdf, const BsdfConventions& conventions,
+      [](const std::string& name, const ErasedBsdf& bsdf, const std::vector<std::string>& words,
          const BsdfOptions& options) {
+        const verify::BsdfConventions conventions = verify::conventions::from_words(words);
         return verify::check_bsdf(name, apply_conventions(bsdf, conventions), options);
       },
       py::arg("name"), py::arg("bsdf"), py::arg("conventions"), py::arg("options"));

@@ -81,6 +81,7 @@ void bind_report(py::module_& module) {
   py::class_<Report>(module, "Report", py::dynamic_attr(), "What several checks found.")
       .def(py::init<std::vector<CheckResult>>(), py::arg("results") = std::vector<CheckResult>{})
       .def_property_readonly("ok", &Report::ok)
+      .def("__bool__", &Report::ok)
       .def_property_readonly("as_expected", &Report::as_expected)
       .def_property_readonly("verdict", [](const Report& r) { return to_string(r.verdict()); })
       .def_readonly("results", &Report::results)

@@ -8,8 +8,6 @@ namespace plumbline::python {
 namespace {
 
 using verify::Verdict;
-using Frame = verify::BsdfConventions::Frame;
-using Weight = verify::BsdfConventions::Weight;
 
 template <class T>
 struct Name {
@@ -19,14 +17,6 @@ struct Name {
 
 constexpr Name<Verdict> kVerdicts[] = {
     {"pass", Verdict::pass}, {"fail", Verdict::fail}, {"inconclusive", Verdict::inconclusive}};
-
-constexpr Name<Frame> kFrames[] = {
-    {"z-up", Frame::local_z_up}, {"y-up", Frame::local_y_up}, {"world", Frame::world}};
-
-constexpr Name<Weight> kWeights[] = {{"throughput", Weight::throughput},
-                                     {"f", Weight::f},
-                                     {"f-cosine", Weight::f_cosine},
-                                     {"unused", Weight::unused}};
 
 template <class T, std::size_t n>
 T named(const Name<T> (&names)[n], std::string_view what, std::string_view word) {
@@ -42,10 +32,6 @@ T named(const Name<T> (&names)[n], std::string_view what, std::string_view word)
 }  // namespace
 
 Verdict verdict_of(std::string_view word) { return named(kVerdicts, "expected", word); }
-
-Frame frame_of(std::string_view word) { return named(kFrames, "frame", word); }
-
-Weight weight_of(std::string_view word) { return named(kWeights, "weight", word); }
 
 std::optional<std::string> cause_word(verify::CauseKind kind) {
   if (kind == verify::CauseKind::none) return std::nullopt;

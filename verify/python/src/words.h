@@ -4,7 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include <plumbline/verify/bsdf.h>
 #include <plumbline/verify/detail/cause.h>
 #include <plumbline/verify/detail/result.h>
 
@@ -13,8 +12,6 @@
 namespace plumbline::python {
 
 verify::Verdict verdict_of(std::string_view word);
-verify::BsdfConventions::Frame frame_of(std::string_view word);
-verify::BsdfConventions::Weight weight_of(std::string_view word);
 
 /// None where nothing is named.
 std::optional<std::string> cause_word(verify::CauseKind kind);

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <span>
+#include <string>
+#include <string_view>
+
 #include <plumbline/verify/detail/erase_bsdf.h>
 
 /// How the renderers that people know write BSDFs down, for `BsdfOptions::conventions`: what their
@@ -55,5 +59,21 @@ inline BsdfConventions blender() {
   c.zero_pdf_is_failure = true;
   return c;
 }
+
+/// What a convention is called on command lines and in other languages.
+struct Word {
+  std::string_view word;  ///< "mitsuba", "y-up"
+  std::string_view meaning;
+  bool all = false;  ///< the whole of a renderer's conventions
+  void (*put)(BsdfConventions&) = nullptr;
+};
+
+/// All of them: names of renderers, then single conventions.
+std::span<const Word> words();
+
+/// @param words  those of `words()`, a renderer's name before single ones; and normal:X,Y,Z, the
+///               normal in world space, of any length but 0
+/// @throws std::invalid_argument for a word that is not known, or a name that comes later
+BsdfConventions from_words(std::span<const std::string> words);
 
 }  // namespace plumbline::verify::conventions
