@@ -79,10 +79,12 @@ void print_summary(const reports::Results& results, const reports::Summary& summ
                row.seconds);
   }
   fmt::print(
-      "\n{} checks: {} passed, {} caught as they should be, {} inconclusive as expected, {} "
+      "\n{} checks: {} passed, {} caught as they should be, {} inconclusive as expected, {}{} "
       "unexpected\n",
       summary.checks(), summary.passed, summary.failed_as_expected,
-      summary.inconclusive_as_expected, summary.unexpected);
+      summary.inconclusive_as_expected,
+      summary.waived > 0 ? fmt::format("{} waived, ", summary.waived) : std::string(),
+      summary.unexpected);
   for (const verify::CheckResult& check : results.checks) {
     if (!check.as_expected()) fmt::print("\n{}\n", verify::describe(check));
   }

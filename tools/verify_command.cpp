@@ -18,6 +18,7 @@
 #include <plumbline/verify/bsdf.h>
 #include <plumbline/verify/conventions.h>
 #include <plumbline/verify/detail/stopwatch.h>
+#include <plumbline/verify/waiver.h>
 
 #include "command.h"
 #include "domain_argument.h"
@@ -29,7 +30,7 @@ namespace {
 
 struct VerifyArguments {
   reports::VerifyOptionsFile given;
-  std::string options_file, json, results;
+  std::string options_file, waivers, json, results;
   bool self_test = false, quick = false, not_reciprocal = false, gains_energy = false;
   std::vector<std::string> conventions;
   std::optional<double> timeout, eta;
@@ -126,9 +127,10 @@ int run_checks(const VerifyArguments& arguments, const reports::VerifyOptionsFil
   std::optional<OutputFile> json;
   if (!arguments.json.empty()) json.emplace(arguments.json);
   const verify::BsdfOptions options = bsdf_options(given);  // wrong ones start no program
+  const std::vector<verify::Waiver> waivers = read_waivers(arguments.waivers);
   const auto answerer = std::make_shared<exchange::Answerer>(answerer_options(given));
   const verify::Stopwatch watch;
-  verify::Report report = check(answerer, given);
+  verify::Report report = verify::waive(check(answerer, given), waivers);
   const double seconds = watch.seconds();
   const std::string end = answerer->finish();
   if (!end.empty()) fmt::print(stderr, "plumbline: {}\n", end);
@@ -192,6 +194,9 @@ Conventions, a renderer's name, which says all of its own, before single ones:
 The file of --options is a JSON object: {{"exec": "./mine", "angles": [0, 60], "conventions": ["y-up"]}}; its names
 are exec, exchange, name, domain, timeout, eta, angles, conventions, faces, reciprocal, conserves_energy, quick,
 samples, seed.
+
+A waiver, {{"check": "coat/*/energy", "reason": "multiple scattering is missing", "until": "2027-01-31"}}, lets the
+checks that it names fail until that day; one that has expired or is not needed fails itself.
 
 Examples:
   plumbline verify --exec ./mine --self-test
@@ -258,6 +263,10 @@ void add_verify_command(options::CommandLine& line) {
       .positive_number()
       .type("S");
   command.add("--options", arguments->options_file, "JSON file of options; the command line's win")
+      .type("FILE");
+  command
+      .add("--waivers", arguments->waivers,
+           "JSON file of known failures: [{\"check\": …, \"reason\": …, \"until\": …}]")
       .type("FILE");
   command.add_flag("--self-test", arguments->self_test,
                    "Does the program keep to the protocol? Whatever its values are");

@@ -59,6 +59,12 @@ void put_quick(verify::BsdfOptions& options) {
   contract.mass_tolerance = 5e-3;
 }
 
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw renderer::InputError(path + ": cannot be read");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 template <class T>
 void complete(std::optional<T>& given, std::optional<T>& from_file) {
   if (!given) given = std::move(from_file);
@@ -97,9 +103,7 @@ std::vector<double> parse_angles(const std::string& text) {
 }
 
 Given with_file(Given given, const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw renderer::InputError(path + ": cannot be read");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = text_of(path);
   try {
     Given from_file = reports::parse_verify_options(text);
     complete(given.exec, from_file.exec);
@@ -120,6 +124,15 @@ Given with_file(Given given, const std::string& path) {
     throw renderer::InputError(path + ": " + error.what());
   }
   return given;
+}
+
+std::vector<verify::Waiver> read_waivers(const std::string& path) {
+  if (path.empty()) return {};
+  try {
+    return reports::parse_waivers(text_of(path));
+  } catch (const reports::FormatError& error) {
+    throw renderer::InputError(path + ": " + error.what());
+  }
 }
 
 verify::BsdfOptions bsdf_options(const Given& given) {

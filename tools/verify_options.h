@@ -6,6 +6,7 @@
 
 #include <plumbline/reports/exchange_messages.h>
 #include <plumbline/verify/bsdf.h>
+#include <plumbline/verify/waiver.h>
 
 /// What `plumbline verify` was asked for, on the command line and in a file.
 namespace plumbline::tools {
@@ -23,6 +24,10 @@ std::vector<double> parse_angles(const std::string& text);
 /// What the command line states, completed by the file.
 /// @throws renderer::InputError for a file that cannot be read or understood
 reports::VerifyOptionsFile with_file(reports::VerifyOptionsFile given, const std::string& path);
+
+/// The known failures of a file; none where no file is named.
+/// @throws renderer::InputError for a file that cannot be read or understood
+std::vector<verify::Waiver> read_waivers(const std::string& path);
 
 /// @throws renderer::InputError for values that nothing can be checked with
 verify::BsdfOptions bsdf_options(const reports::VerifyOptionsFile& given);

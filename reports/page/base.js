@@ -173,7 +173,8 @@ const numberColumn = (name, get, format = formatNumber, more = {}) => ({
 
 function verdictBadge(check) {
   const wrong = check.as_expected ? '' : ' wrong';
-  return element('span', {className: `badge ${check.verdict}${wrong}`}, check.verdict);
+  const waived = check.waived ? ', waived' : '';
+  return element('span', {className: `badge ${check.waived ? 'inconclusive' : check.verdict}${wrong}`}, check.verdict + waived);
 }
 
 function groupBy(list, key) {

@@ -70,6 +70,8 @@ function checkDetails(check) {
       'td',
       {colspan: checkColumns.length},
       why ? element('p', {className: 'why'}, why) : null,
+      check.advice ? element('p', {className: 'why'}, check.advice) : null,
+      check.waived ? element('p', {className: 'why'}, `Waived: ${check.waived}`) : null,
       check.diagnosis ? element('p', {className: 'diagnosis'}, check.diagnosis) : null,
       element(
         'dl',
@@ -125,9 +127,10 @@ class CheckTable {
     this.head = element('thead');
     this.table = element('table', {}, this.head);
     this.count = element('span', {className: 'count', role: 'status'});
-    this.chips = ['all', 'unexpected', 'pass', 'fail', 'inconclusive'].map((kind) =>
-      element('button', {type: 'button', onclick: () => this.show(kind)}, kind[0].toUpperCase() + kind.slice(1)));
     this.kinds = ['all', 'unexpected', 'pass', 'fail', 'inconclusive'];
+    if (checks.some((check) => check.waived)) this.kinds.push('waived');
+    this.chips = this.kinds.map((kind) =>
+      element('button', {type: 'button', onclick: () => this.show(kind)}, kind[0].toUpperCase() + kind.slice(1)));
     this.draw();
   }
 
@@ -163,7 +166,7 @@ class CheckTable {
   matches(check) {
     const text = `${check.subject} ${check.check} ${check.verdict} ${check.leaned_on}`.toLowerCase();
     const kindFits = this.kind === 'all' || this.kind === check.verdict ||
-      (this.kind === 'unexpected' && !check.as_expected);
+      (this.kind === 'unexpected' && !check.as_expected) || (this.kind === 'waived' && check.waived);
     return kindFits && this.words.every((word) => text.includes(word));
   }
 

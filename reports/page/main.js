@@ -1,8 +1,8 @@
 
 // The top of the page, and the order of its sections.
 
-function verdictText({passed, failed_as_expected: caught, inconclusive_as_expected: open, unexpected, unreadable}) {
-  const total = passed + caught + open + unexpected;
+function verdictText({passed, failed_as_expected: caught, inconclusive_as_expected: open, waived, unexpected, unreadable}) {
+  const total = passed + caught + open + waived + unexpected;
   if (total === 0) return ['No checks in these results', 'The page shows images and measurements only.'];
   if (unexpected > 0) {
     return [
@@ -12,6 +12,12 @@ function verdictText({passed, failed_as_expected: caught, inconclusive_as_expect
   }
   if (unreadable > 0) {
     return [`${total} checks as expected, but results were lost`, 'What could not be read may have held a failure.'];
+  }
+  if (waived > 0) {
+    return [
+      `${total - waived} of ${total} checks gave the verdict they should, ${waived} ${waived === 1 ? 'is' : 'are'} waived`,
+      'A waiver names a known failure, with its reason and its last day.',
+    ];
   }
   return [
     `All ${total} checks gave the verdict they should`,
@@ -32,6 +38,7 @@ function addOverview(showChecks) {
         tile(summary.passed, 'proven', 'pass', 'pass'),
         tile(summary.failed_as_expected, 'controls caught', 'pass', 'fail'),
         tile(summary.inconclusive_as_expected, 'rightly undecided', 'open', 'inconclusive'),
+        summary.waived > 0 ? tile(summary.waived, 'waived', 'open', 'waived') : null,
         tile(summary.unexpected, 'unexpected', 'fail', 'unexpected'))));
 }
 

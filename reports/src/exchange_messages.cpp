@@ -1,5 +1,14 @@
 #include <plumbline/reports/exchange_messages.h>
 
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <plumbline/verify/waiver.h>
+
 #include "json.h"
 
 namespace plumbline::reports {
@@ -140,6 +149,19 @@ bool take_member(const std::string& name, const Json& value, VerifyOptionsFile& 
   return known;
 }
 
+struct WaiverText {
+  std::string check, reason, until;
+};
+
+bool take_member(const std::string& name, const Json& value, WaiverText& waiver) {
+  std::string* into = name == "check"    ? &waiver.check
+                      : name == "reason" ? &waiver.reason
+                      : name == "until"  ? &waiver.until
+                                         : nullptr;
+  if (into != nullptr) take(name, value, *into);
+  return into != nullptr;
+}
+
 template <class Record>
 Record from_members(const Json& json) {
   Record record;
@@ -179,6 +201,25 @@ AnswerLine parse_answer_line(std::string_view line) {
 
 VerifyOptionsFile parse_verify_options(std::string_view text) {
   return from_members<VerifyOptionsFile>(parse_object(text));
+}
+
+std::vector<verify::Waiver> parse_waivers(std::string_view text) {
+  const Json list = Json::parse(text);
+  if (!list.is_array()) throw FormatError("not a list of waivers");
+  std::vector<verify::Waiver> waivers;
+  for (const Json& entry : list.elements()) {
+    try {
+      if (!entry.is_object()) throw FormatError("not an object");
+      const WaiverText given = from_members<WaiverText>(entry);
+      if (given.check.empty() || given.reason.empty()) {
+        throw FormatError("must state \"check\", \"reason\" and \"until\"");
+      }
+      waivers.push_back({given.check, given.reason, verify::parse_day(given.until)});
+    } catch (const std::exception& error) {
+      throw FormatError("waiver " + std::to_string(waivers.size() + 1) + ": " + error.what());
+    }
+  }
+  return waivers;
 }
 
 }  // namespace plumbline::reports

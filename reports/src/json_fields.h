@@ -39,6 +39,9 @@ class FieldWriter {
  public:
   explicit FieldWriter(Json& json) : json_(json) {}
 
+  /// Of a field that records may lack, older ones among them.
+  bool wants(const char*, bool is_set) const { return is_set; }
+
   template <class T>
   void operator()(const char* name, const T& value) {
     json_[name] = to_value(value);
@@ -102,6 +105,8 @@ class FieldWriter {
 class FieldReader {
  public:
   explicit FieldReader(const Json& json) : json_(json) {}
+
+  bool wants(const char* name, bool) const { return json_.find(name) != nullptr; }
 
   template <class T>
   void operator()(const char* name, T& value) {

@@ -18,6 +18,7 @@ Json summary_to_json(const Summary& summary) {
   return Json::object({{"passed", summary.passed},
                        {"failed_as_expected", summary.failed_as_expected},
                        {"inconclusive_as_expected", summary.inconclusive_as_expected},
+                       {"waived", summary.waived},
                        {"unexpected", summary.unexpected},
                        {"unreadable", summary.unreadable},
                        {"good", summary.good()}});

@@ -135,6 +135,8 @@ Summary summarise(const Results& results) {
   for (const verify::CheckResult& check : results.checks) {
     if (!check.as_expected()) {
       ++summary.unexpected;
+    } else if (!check.waived.empty()) {
+      ++summary.waived;
     } else if (check.verdict == verify::Verdict::pass) {
       ++summary.passed;
     } else if (check.verdict == verify::Verdict::fail) {

@@ -174,6 +174,8 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("leaned_on", r.leaned_on);
   visit("reason", r.reason);
   visit("diagnosis", r.diagnosis);
+  if (visit.wants("advice", !r.advice.empty())) visit("advice", r.advice);
+  if (visit.wants("waived", !r.waived.empty())) visit("waived", r.waived);
   visit("seed", r.seed);
   visit("replay", r.replay);
   visit_figures(visit, r.figures);

@@ -41,6 +41,24 @@ TEST(VerifyCommand, FaultyProgramFailsWithTheCause) {
       << outcome.out;
 }
 
+TEST(VerifyCommand, KnownFailuresAreWaivedUntilTheyExpire) {
+  const ScratchDirectory scratch;
+  const auto waiver = [](const std::string& until) {
+    return R"([{"check": "*", "reason": "known", "until": ")" + until + R"("}])";
+  };
+  scratch.write("known.json", waiver("2999-01-01"));
+  const Outcome waived =
+      run_verify(scratch, kExample + " --faulty", "--waivers known.json --results kept");
+  EXPECT_EQ(waived.exit_code, 0) << waived.out << waived.err;
+  EXPECT_NE(waived.out.find("known (until 2999-01-01)"), std::string::npos) << waived.out;
+  EXPECT_NE(run_plumbline(scratch.path(), "report kept -o page.html").out.find("waived"),
+            std::string::npos);
+  scratch.write("known.json", waiver("2020-01-01"));
+  const Outcome expired = run_verify(scratch, kExample + " --faulty", "--waivers known.json");
+  EXPECT_EQ(expired.exit_code, 1);
+  EXPECT_NE(expired.out.find("expired on 2020-01-01: known"), std::string::npos) << expired.out;
+}
+
 TEST(VerifyCommand, ProgramThatBreaksTheProtocolIsBadInput) {
   const ScratchDirectory scratch;
   const Outcome outcome = run_verify(scratch, PLUMBLINE_ANSWERER " dies float32 100", "--json x");
@@ -80,6 +98,7 @@ struct Wrong {
 TEST(VerifyCommand, MisuseHasExitCodeTwoAndAMessage) {
   const ScratchDirectory scratch;
   scratch.write("bad.json", R"({"angels": [60]})");
+  scratch.write("day.json", R"([{"check": "a", "reason": "b", "until": "soon"}])");
   for (const Wrong& wrong : std::vector<Wrong>{
            {"", "verify needs --exec COMMAND or --exchange DIR"},
            {"--exec true --angles 60,x", "--angles 60,x: must read like 0,60,80"},
@@ -87,7 +106,8 @@ TEST(VerifyCommand, MisuseHasExitCodeTwoAndAMessage) {
            {"--exec true --faces top", R"(faces are "both", "front" or "back")"},
            {"--exec true --convention yup",
             R"(--convention yup: there is no such convention; did)"},
-           {"--exec true --convention normal:0,0,0", "must read normal:X,Y,Z, not all 0"},
+           {"--exec true --convention normal:0,0,0",
+            "must read normal:X,Y,Z, finite and not all 0"},
            {"--exec true --domain disc", R"(--domain disc: there is no such domain; did you mean)"},
            {"--exec true --domain disk:0", "--domain disk:0: must read like disk:2"},
            {"--exec true --domain discrete", "must read like disk:2, interval:-1:1, discrete:5"},
@@ -96,6 +116,9 @@ TEST(VerifyCommand, MisuseHasExitCodeTwoAndAMessage) {
            {"--exec true --timeout nan", "nan is not a positive number"},
            {"--exec true --options missing.json", "missing.json: cannot be read"},
            {"--exec true --options bad.json", R"(bad.json: there is no field "angels")"},
+           {"--exec true --waivers bad.json", "bad.json: not a list of waivers"},
+           {"--exec true --waivers day.json",
+            R"(day.json: waiver 1: "soon" is no day; it must read like 2027-01-31)"},
            {"--exec true --json missing/x", "there is no directory missing"},
            {"--exec '" PLUMBLINE_ANSWERER " square' --domain disk",
             "--domain disk, but the program answers for square"},
@@ -107,7 +130,7 @@ TEST(VerifyCommand, MisuseHasExitCodeTwoAndAMessage) {
     EXPECT_NE(outcome.err.find(wrong.message), std::string::npos) << wrong.arguments << "\n"
                                                                   << outcome.err;
   }
-  EXPECT_EQ(scratch.listing(), "bad.json");
+  EXPECT_EQ(scratch.listing(), "bad.json day.json");
 }
 
 }  // namespace

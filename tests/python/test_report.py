@@ -1,5 +1,7 @@
 """What people see of a report."""
 
+import datetime
+
 import numpy as np
 import pytest
 
@@ -69,3 +71,13 @@ def test_type_stubs_name_what_is_there():
     stubbed = {node.name for node in tree.body if hasattr(node, "name")}
     stubbed |= {node.target.id for node in tree.body if isinstance(node, ast.AnnAssign)}
     assert {name for name in vars(_core) if not name.startswith("_")} <= stubbed
+
+
+def test_a_known_failure_is_waived():
+    report = plumbline.check_mean(np.full(30_000, 0.6), reference=0.5, name="a/mean")
+    assert not report
+    until = datetime.date(2999, 1, 31)
+    waived = plumbline.waive(report, [plumbline.Waiver("a/*", "known", until)])
+    assert waived and waived.results[0].waived == "known (until 2999-01-31)"
+    expired = plumbline.waive(report, [plumbline.Waiver("a/*", "known", datetime.date(2020, 1, 1))])
+    assert not expired and expired.results[-1].subject == "waiver/a/*"

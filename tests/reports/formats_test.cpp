@@ -64,6 +64,8 @@ TEST(Formats, CheckIsReadBackFieldByField) {
   EXPECT_EQ(out.leaned_on, in.leaned_on);
   EXPECT_EQ(out.reason, in.reason);
   EXPECT_EQ(out.diagnosis, in.diagnosis);
+  EXPECT_EQ(out.advice, in.advice);
+  EXPECT_EQ(out.waived, in.waived);
   EXPECT_EQ(out.seed, in.seed);
   EXPECT_EQ(out.replay, in.replay);
   EXPECT_EQ(out.figures, in.figures);

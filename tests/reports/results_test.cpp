@@ -187,14 +187,18 @@ TEST(Summary, CountsEachKindOfOutcomeOnce) {
   add(Verdict::fail, Verdict::fail);
   add(Verdict::inconclusive, Verdict::inconclusive);
   EXPECT_TRUE(reports::summarise(results).good());
+  add(Verdict::fail, Verdict::fail);
+  results.checks.back().waived = "known";
+  EXPECT_TRUE(reports::summarise(results).good());
   add(Verdict::inconclusive, Verdict::pass);
   add(Verdict::pass, Verdict::fail);
   const reports::Summary summary = reports::summarise(results);
   EXPECT_EQ(summary.passed, 1u);
   EXPECT_EQ(summary.failed_as_expected, 1u);
   EXPECT_EQ(summary.inconclusive_as_expected, 1u);
+  EXPECT_EQ(summary.waived, 1u);
   EXPECT_EQ(summary.unexpected, 2u);
-  EXPECT_EQ(summary.checks(), 5u);
+  EXPECT_EQ(summary.checks(), 6u);
   EXPECT_FALSE(summary.good());
 }
 

@@ -20,6 +20,8 @@ verify::CheckResult sample_check() {
   check.leaned_on = "exact variance";
   check.reason = "the bias is proven";
   check.diagnosis = "observed/expected = 2: factor?";
+  check.advice = "state break lines";
+  check.waived = "known (until 2027-01-31)";
   check.seed = 18'446'744'073'709'551'615u;
   check.replay = "ctest -R '^A\\.B$'";
   check.figures = {{verify::Figure::bins, 4096}, {"a \"quoted\" name", 0.5}};

@@ -17,7 +17,7 @@ bool skipped(const CheckResult& r) {
   return r.verdict == Verdict::inconclusive && r.expected == Verdict::inconclusive;
 }
 
-bool acceptable(const CheckResult& r) { return r.ok() || skipped(r); }
+bool acceptable(const CheckResult& r) { return r.ok() || skipped(r) || !r.waived.empty(); }
 
 /// What the summary is about: results that are not what their checks declare; where there are none,
 /// those that declare something else than a pass. Fails first.
@@ -41,8 +41,17 @@ std::string summary_of_good(const Report& report) {
   const auto passed = static_cast<std::size_t>(
       std::count_if(report.begin(), report.end(), [](const CheckResult& r) { return r.ok(); }));
   std::string text = count(passed) + " of " + checks(report.size()) + " passed";
-  if (passed < report.size()) text += ", " + count(report.size() - passed) + " skipped";
-  return text + "\n";
+  std::size_t waived = 0;
+  std::string reasons;
+  for (const CheckResult& r : report) {
+    if (r.waived.empty()) continue;
+    ++waived;
+    reasons += "waived: " + r.subject + ": " + r.waived + "\n";
+  }
+  const std::size_t skipped = report.size() - passed - waived;
+  if (skipped > 0) text += ", " + count(skipped) + " skipped";
+  if (waived > 0) text += ", " + count(waived) + " waived";
+  return text + "\n" + reasons;
 }
 
 std::string first_diagnosis(const std::vector<CheckResult>& results) {
@@ -77,7 +86,8 @@ bool Report::ok() const { return !empty() && std::all_of(begin(), end(), accepta
 
 Verdict Report::verdict() const {
   const auto any = [&](Verdict v) {
-    return std::any_of(begin(), end(), [v](const CheckResult& r) { return r.verdict == v; });
+    return std::any_of(begin(), end(),
+                       [v](const CheckResult& r) { return r.verdict == v && r.waived.empty(); });
   };
   if (any(Verdict::fail)) return Verdict::fail;
   return ok() && any(Verdict::pass) ? Verdict::pass : Verdict::inconclusive;

@@ -19,6 +19,7 @@ from ._html import html_of_report
 from ._image import Image, ImageReport, check_image
 from ._pair import PairLobe, check_pair
 from ._samples import Samples
+from ._waivers import Waiver, waive
 
 Report._repr_html_ = html_of_report  # type: ignore[attr-defined, method-assign]
 
@@ -34,6 +35,7 @@ __all__ = [
     "PairLobe",
     "Report",
     "Samples",
+    "Waiver",
     "check_agreement",
     "check_bsdf",
     "check_image",
@@ -41,4 +43,5 @@ __all__ = [
     "check_pair",
     "check_proportion",
     "check_variance_ratio",
+    "waive",
 ]

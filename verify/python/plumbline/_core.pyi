@@ -31,6 +31,8 @@ class CheckResult:
     leaned_on: str
     reason: str
     advice: str
+    waived: str
+    """why a failure is put up with; empty: it is not"""
     diagnosis: str
     cause: Optional[str]
     """the diagnosis in a word: "half-vector Jacobian" """
@@ -202,6 +204,8 @@ class ImageChannel:
     def __init__(
         self, mean: NDArray, variance: Optional[NDArray], count: Optional[NDArray]
     ) -> None: ...
+
+def waive(report: Report, waivers: Sequence[Tuple[str, str, str]]) -> Report: ...
 
 CONVENTIONS: Dict[str, str]
 

@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <plumbline/verify/detail/report.h>
 #include <plumbline/verify/detail/result.h>
 #include <plumbline/verify/image.h>
+#include <plumbline/verify/waiver.h>
 
 #include "words.h"
 
@@ -64,6 +66,7 @@ void bind_result(py::module_& module) {
       .def_readonly("leaned_on", &CheckResult::leaned_on)
       .def_readonly("reason", &CheckResult::reason)
       .def_readonly("advice", &CheckResult::advice)
+      .def_readonly("waived", &CheckResult::waived)
       .def_readonly("diagnosis", &CheckResult::diagnosis)
       .def_property_readonly("cause", [](const CheckResult& r) { return cause_word(r.cause); })
       .def_readonly("seed", &CheckResult::seed)
@@ -93,6 +96,17 @@ void bind_report(py::module_& module) {
       .def("summary", &Report::summary)
       .def("__str__", &Report::summary)
       .def("__repr__", &line_of);
+  module.def(
+      "waive",
+      [](const Report& report,
+         const std::vector<std::tuple<std::string, std::string, std::string>>& given) {
+        std::vector<verify::Waiver> waivers;
+        for (const auto& [check, reason, until] : given) {
+          waivers.push_back({check, reason, verify::parse_day(until)});
+        }
+        return verify::waive(report, waivers);
+      },
+      py::arg("report"), py::arg("waivers"));
 }
 
 py::array_t<double> map_of(const ImageResult& r) {

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include <plumbline/reports/errors.h>
+#include <plumbline/verify/waiver.h>
 
 /// The lines of JSON that `plumbline verify` and a program that answers it exchange
-/// (docs/protocol.md), and the file of its options.
+/// (docs/protocol.md), and the files of its options and of known failures.
 namespace plumbline::reports {
 
 /// The version that is spoken: "plumbline/1".
@@ -61,5 +62,10 @@ struct VerifyOptionsFile {
 
 /// @throws FormatError for what is no JSON object, and for a name or a value that is not understood
 VerifyOptionsFile parse_verify_options(std::string_view text);
+
+/// [{"check": "coat/*/energy", "reason": "…", "until": "2027-01-31"}]: what `verify::waive` takes.
+///
+/// @throws FormatError for what is no such list, with the number of the entry
+std::vector<verify::Waiver> parse_waivers(std::string_view text);
 
 }  // namespace plumbline::reports

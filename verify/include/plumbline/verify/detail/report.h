@@ -28,11 +28,13 @@ struct Report {
   Report(CheckResult result) { results.push_back(std::move(result)); }
   Report(std::vector<CheckResult> all) : results(std::move(all)) {}
 
-  /// Everything passes that was not skipped, which a check declares (`expected` inconclusive). A
-  /// fail is never ok, whatever was expected; nor is a report without results.
+  /// Everything passes that was not skipped, which a check declares (`expected` inconclusive), and
+  /// that no waiver names. Any other fail is not ok, whatever was expected; nor is a report without
+  /// results.
   bool ok() const;
 
-  /// `fail` if anything fails; `pass` if it is ok and something passes; else `inconclusive`.
+  /// `fail` if anything fails that is not waived; `pass` if it is ok and something passes; else
+  /// `inconclusive`.
   Verdict verdict() const;
 
   /// Every result is what its check declares, and there is one.

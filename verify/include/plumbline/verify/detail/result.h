@@ -149,6 +149,7 @@ struct CheckResult {
 
   std::string leaned_on;  ///< assumption behind the verdict: "exact variance", "skewness guard", …
   std::string reason;     ///< why it failed or stayed inconclusive, one sentence for a person
+  std::string waived;     ///< why a failure is put up with (waiver.h); empty: it is not
   std::string advice;     ///< what to do where it stayed inconclusive, one sentence
   std::string diagnosis;  ///< what is likely wrong, and how well that fits; empty if nothing fits
   CauseKind cause = CauseKind::none;  ///< the diagnosis in a word
