@@ -17,5 +17,6 @@ void add_calibrate_command(options::CommandLine& line);
 void add_compare_command(options::CommandLine& line);
 void add_report_command(options::CommandLine& line);
 void add_verify_command(options::CommandLine& line);
+void add_init_command(options::CommandLine& line);
 
 }  // namespace plumbline::tools

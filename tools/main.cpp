@@ -76,6 +76,7 @@ int main_of(int argc, char** argv) {
   add_compare_command(line);
   add_calibrate_command(line);
   add_verify_command(line);
+  add_init_command(line);
   add_report_command(line);
   try {
     if (argc > 1) check_command_name(line, argv[1]);

@@ -61,6 +61,30 @@ function copyButton(text) {
   return button;
 }
 
+/** The bins of a chi-square test in the square of the domain's chart, by how many samples they hold of those expected. */
+function binMap(bins) {
+  const size = 240;
+  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+  svg.setAttribute('viewBox', `0 0 ${size} ${size}`);
+  svg.setAttribute('class', 'bins');
+  svg.setAttribute('role', 'img');
+  svg.setAttribute('aria-label', 'Samples in each bin against those expected');
+  for (const [x0, x1, y0, y1, expected, error, observed] of bins) {
+    const rect = document.createElementNS('http://www.w3.org/2000/svg', 'rect');
+    const ratio = Math.log2((observed + 0.5) / (expected + 0.5));
+    const box = {x: size * x0, y: size * (1 - y1), width: size * (x1 - x0), height: size * (y1 - y0)};
+    for (const [name, value] of Object.entries(box)) rect.setAttribute(name, value);
+    rect.setAttribute('class', ratio > 0 ? 'more' : 'fewer');
+    rect.setAttribute('fill-opacity', Math.min(1, Math.abs(ratio)));
+    const title = document.createElementNS('http://www.w3.org/2000/svg', 'title');
+    title.textContent = `${observed} samples, ${formatNumber(expected, 6)} ± ${formatNumber(error, 2)} expected`;
+    rect.append(title);
+    svg.append(rect);
+  }
+  return element('figure', {className: 'bin-map'}, svg,
+    element('figcaption', {}, 'The bins in the square of the domain’s chart: more samples than the pdf says, or fewer; in full at twice and half'));
+}
+
 function checkDetails(check) {
   const why = check.reason || (check.as_expected ? '' : `Expected ${check.expected}, got ${check.verdict}.`);
   return element(
@@ -73,6 +97,7 @@ function checkDetails(check) {
       check.advice ? element('p', {className: 'why'}, check.advice) : null,
       check.waived ? element('p', {className: 'why'}, `Waived: ${check.waived}`) : null,
       check.diagnosis ? element('p', {className: 'diagnosis'}, check.diagnosis) : null,
+      check.bins ? binMap(check.bins) : null,
       element(
         'dl',
         {className: 'facts'},

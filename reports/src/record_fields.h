@@ -156,6 +156,25 @@ void visit_figures(Visitor& visit, Figures& figures) {
   }
 }
 
+/// Each as seven numbers: ends in x, ends in y, expected samples, their error, observed ones.
+template <class Visitor, class Bins>
+void visit_bins(Visitor& visit, Bins& bins) {
+  if (!visit.wants("bins", !bins.empty())) return;
+  std::vector<std::vector<double>> rows;
+  for (const verify::Bin& b : bins) {
+    rows.push_back(
+        {b.x.low, b.x.high, b.y.low, b.y.high, b.expected, b.expected_error, b.observed});
+  }
+  visit("bins", rows);
+  if constexpr (!std::is_const_v<Bins>) {
+    bins.clear();
+    for (const std::vector<double>& row : rows) {
+      if (row.size() != 7) throw FormatError("field \"bins\": a bin is not seven numbers");
+      bins.push_back({{row[0], row[1]}, {row[2], row[3]}, row[4], row[5], row[6]});
+    }
+  }
+}
+
 template <class Visitor, Is<verify::CheckResult> Record>
 void visit_fields(Visitor& visit, Record& r) {
   visit("check", r.kind);
@@ -179,6 +198,7 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("seed", r.seed);
   visit("replay", r.replay);
   visit_figures(visit, r.figures);
+  visit_bins(visit, r.bins);
 }
 
 template <class Visitor, Is<RenderRecord> Record>

@@ -269,7 +269,7 @@ Pair double_henyey_greenstein(bool with_lobes, int fault = 0) {
     l.name = std::move(name);
     l.probability = static_cast<double>(probability);
     l.sample = [phase, g](const verify::Uniforms& u) {
-      return verify::detail::record_of_point(
+      return verify::detail::record_of_plain(
           phase.lobe(g, static_cast<T>(u[0]), static_cast<T>(u[1])));
     };
     l.pdf = [phase, g](const verify::Vec3& x) {

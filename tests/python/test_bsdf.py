@@ -21,6 +21,9 @@ def test_wrong_constant_fails_and_is_named():
     report = check(Twice(), conserves_energy=False, reciprocal=False)
     assert report.verdict == "fail"
     assert report.cause_kind == "constant", report
+    bins = [r.bins for r in report.results if r.kind == "chi_square" and r.verdict == "fail"]
+    assert bins and 0 < len(bins[0]) <= 256
+    assert "samples than the pdf says" in report._repr_html_()
 
 
 class Elsewhere:

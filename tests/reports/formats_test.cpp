@@ -69,6 +69,7 @@ TEST(Formats, CheckIsReadBackFieldByField) {
   EXPECT_EQ(out.seed, in.seed);
   EXPECT_EQ(out.replay, in.replay);
   EXPECT_EQ(out.figures, in.figures);
+  EXPECT_EQ(out.bins, in.bins);
 }
 
 TEST(Formats, RenderRecordHoldsWhatTheCommandPromises) {

@@ -24,6 +24,7 @@ verify::CheckResult sample_check() {
   check.waived = "known (until 2027-01-31)";
   check.seed = 18'446'744'073'709'551'615u;
   check.replay = "ctest -R '^A\\.B$'";
+  check.bins = {{{0, 0.5}, {0.25, 1}, 10.5, 0.125, 12}, {{0.5, 1}, {0, 1}, 1, 0, 0}};
   check.figures = {{verify::Figure::bins, 4096}, {"a \"quoted\" name", 0.5}};
   return check;
 }

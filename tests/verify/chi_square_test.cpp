@@ -151,5 +151,39 @@ TEST(ChiSquare, SeesALobeWeightOfFiftyOnePercent) {
   }
 }
 
+TEST(ChiSquare, AFailShowsItsBins) {
+  const auto line = [](const std::string& name, double low) {
+    return sampling_pair<double>(
+        name, Domain::interval(), [low](double u) { return low + (1 - low) * u; },
+        [](double) { return 1.0; });
+  };
+  const CheckResult right = check_chi_square(line("right", 0));
+  EXPECT_EQ(right.verdict, Verdict::pass);
+  EXPECT_TRUE(right.bins.empty());
+  const CheckResult wrong = check_chi_square(line("wrong", 0.25));
+  ASSERT_EQ(wrong.verdict, Verdict::fail);
+  ASSERT_EQ(wrong.bins.size(), 256u);
+  double length = 0, observed = 0, expected = 0;
+  for (const Bin& bin : wrong.bins) {
+    length += bin.x.high - bin.x.low;
+    observed += bin.observed;
+    expected += bin.expected;
+    if (bin.x.high <= 0.25) {
+      EXPECT_EQ(bin.observed, 0);
+    }
+  }
+  const auto samples = static_cast<double>(wrong.samples);
+  EXPECT_NEAR(length, 1, 1e-12);
+  EXPECT_EQ(observed, samples);
+  EXPECT_NEAR(expected, samples, 1e-3 * samples);
+
+  const CheckResult set = check_chi_square(sampling_pair<int>(
+      "set", Domain::discrete(3), [](float u) { return u < 0.5f ? 0 : 2; },
+      [](int) { return 1.0 / 3; }));
+  ASSERT_EQ(set.verdict, Verdict::fail);
+  EXPECT_EQ(set.bins[1].observed, 0);
+  EXPECT_EQ(set.bins[1].x, (Interval{1, 2}));
+}
+
 }  // namespace
 }  // namespace plumbline::verify

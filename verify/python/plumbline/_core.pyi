@@ -31,6 +31,9 @@ class CheckResult:
     leaned_on: str
     reason: str
     advice: str
+    bins: List[Tuple[float, float, float, float, float, float, float]]
+    """what a chi-square test that failed has counted: ends in x and in y of a bin in the square of
+    the domain's chart, samples expected, their standard error, samples observed"""
     waived: str
     """why a failure is put up with; empty: it is not"""
     diagnosis: str

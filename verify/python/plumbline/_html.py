@@ -52,6 +52,36 @@ def _tile(p: float) -> float:
     return min(1.0, math.log(_HIGH / max(p, 1e-300)) / math.log(_HIGH / _LOW))
 
 
+def _bins(result: _core.CheckResult) -> str:
+    """The bins of a chi-square test in the square of the domain's chart: redder the more samples a
+    bin holds than the pdf says, bluer the fewer, in full at twice and half as many."""
+    if not result.bins:
+        return ""
+    size = 256
+    squares = []
+    for x0, x1, y0, y1, expected, _, observed in result.bins:
+        ratio = math.log2((observed + 0.5) / (expected + 0.5))
+        colour = "218, 54, 51" if ratio > 0 else "47, 129, 247"
+        squares.append(
+            f'<rect x="{size * x0:.3f}" y="{size * (1 - y1):.3f}" width="{size * (x1 - x0):.3f}" '
+            f'height="{size * (y1 - y0):.3f}" fill="rgb({colour})" fill-opacity="{min(1, abs(ratio)):.3f}">'
+            f"<title>{observed:.0f} samples, {expected:.6g} expected</title></rect>"
+        )
+    return (
+        f'<figure style="display: inline-block; margin: 0.5em"><svg width="{size}" height="{size}" '
+        f'style="border: 1px solid currentColor">{"".join(squares)}</svg>'
+        f"<figcaption>{escape(result.subject)}: more samples than the pdf says red, fewer blue</figcaption></figure>"
+    )
+
+
+def _worst_bins(results: List[_core.CheckResult]) -> List[str]:
+    """Of the failing check whose bins are furthest off: others mostly share its cause."""
+    failing = [r for r in results if r.verdict == "fail" and r.bins]
+    if not failing:
+        return []
+    return [_bins(min(failing, key=lambda r: 1.0 if r.p_value is None else r.p_value))]
+
+
 def _map(image: _core.ImageResult) -> str:
     """Where the image differs: a square for each tile, redder where its p-value is smaller."""
     tiles = image.p_map
@@ -90,5 +120,6 @@ def html_of_report(report: _core.Report) -> str:
         parts.append(_table(odd))
     if rest:
         parts.append(f"<details><summary>{len(rest)} others</summary>{_table(rest)}</details>")
+    parts += _worst_bins(odd)
     parts += [_map(image) for image in getattr(report, "images", [])]
     return f"<div>{''.join(parts)}</div>"

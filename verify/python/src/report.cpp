@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -40,6 +41,16 @@ std::string line_of(const Report& report) {
   return line + ">";
 }
 
+/// (x0, x1, y0, y1, expected, error of that, observed) of each.
+std::vector<std::array<double, 7>> bins_of(const CheckResult& r) {
+  std::vector<std::array<double, 7>> bins;
+  for (const verify::Bin& b : r.bins) {
+    bins.push_back(
+        {b.x.low, b.x.high, b.y.low, b.y.high, b.expected, b.expected_error, b.observed});
+  }
+  return bins;
+}
+
 py::dict figures_of(const CheckResult& r) {
   py::dict figures;
   for (const verify::FigureValue& f : r.figures) {
@@ -72,6 +83,7 @@ void bind_result(py::module_& module) {
       .def_readonly("seed", &CheckResult::seed)
       .def_readonly("replay", &CheckResult::replay)
       .def_property_readonly("figures", &figures_of)
+      .def_property_readonly("bins", &bins_of)
       .def_property_readonly("ok", &CheckResult::ok)
       .def_property_readonly("as_expected", &CheckResult::as_expected)
       .def("__str__", [](const CheckResult& r) { return describe(r); })

@@ -9,6 +9,7 @@
 #include "pairs/binned_pair.h"
 #include "pairs/chi_square_look.h"
 #include "pairs/integral_check.h"
+#include "pairs/inverse.h"
 #include "pairs/jacobian.h"
 #include "pairs/pointwise.h"
 #include "pairs/rejected_share.h"
@@ -82,6 +83,7 @@ PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options)
   JacobianOutcome jacobian = judge_jacobian(pair, options);
   const std::size_t jacobian_at = results.size();
   results.push_back(jacobian.result);
+  if (has_inverse(pair)) results.push_back(judge_inverse(pair, options));
 
   Stopwatch watch;
   const double error = mass_error(options);

@@ -328,6 +328,14 @@ std::vector<std::vector<BinnedPair::Node>> BinnedPair::nodes() const {
   return nodes;
 }
 
+Box BinnedPair::box_of(int depth, std::size_t bin) const {
+  const int finer = depth_ - depth;
+  const std::size_t first = bin << finer, last = ((bin + 1) << finer) - 1;
+  if (!tree_) return {{static_cast<double>(first), 0}, {static_cast<double>(last + 1), 1}};
+  // The leaves below one node of the tree, of which the first lies lowest and the last highest.
+  return {tree_->box(first).low, tree_->box(last).high};
+}
+
 Vec3 BinnedPair::center(int depth, std::size_t bin) const {
   // The finest bin in the middle of the coarser one's range stands for it.
   const int finer = depth_ - depth;

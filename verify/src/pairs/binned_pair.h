@@ -78,6 +78,9 @@ class BinnedPair {
   };
   std::vector<std::vector<Node>> nodes() const;  ///< of every finest bin
 
+  /// The square's part that a bin of a depth takes; of a discrete set, its points.
+  Box box_of(int depth, std::size_t bin) const;
+
   /// Middle of a bin of a depth, in the domain.
   Vec3 center(int depth, std::size_t bin) const;
 

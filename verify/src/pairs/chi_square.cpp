@@ -242,6 +242,23 @@ void ChiSquareLook::judge(CheckResult& r) const {
   }
 }
 
+/// For a person to see where.
+std::vector<Bin> bins_in_detail(const BinnedPair& pair) {
+  constexpr int kDepth = 8;
+  const int depth = std::min(kDepth, pair.depth());
+  const BinTable table = table_of(pair, depth);
+  std::vector<Bin> bins;
+  for (std::size_t i = 0; i < table.expected.size(); ++i) {
+    const Box box = pair.box_of(depth, i);
+    bins.push_back({{box.low[0], box.high[0]},
+                    {box.low[1], box.high[1]},
+                    table.expected[i],
+                    std::sqrt(table.variance[i]),
+                    table.observed[i]});
+  }
+  return bins;
+}
+
 CheckResult run_chi_square(const ContractOptions& options, BinnedPair& binned,
                            const RejectedShare& rejected) {
   const LookPlan plan = plan_looks(options.first_look, options.samples, options.budget);
@@ -252,6 +269,7 @@ CheckResult run_chi_square(const ContractOptions& options, BinnedPair& binned,
                  .result();
     if (result.verdict != Verdict::inconclusive) break;
   }
+  if (result.verdict == Verdict::fail) result.bins = bins_in_detail(binned);
   result.subject = binned.pair().name + "/chi_square";
   result.seed = options.seed;
   return result;

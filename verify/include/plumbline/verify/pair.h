@@ -13,36 +13,14 @@
 
 #include <plumbline/verify/detail/domain.h>
 #include <plumbline/verify/detail/many.h>
+#include <plumbline/verify/detail/plain_maps.h>
 #include <plumbline/verify/detail/random.h>
+#include <plumbline/verify/detail/record.h>
 #include <plumbline/verify/detail/report.h>
 #include <plumbline/verify/detail/settings.h>
 #include <plumbline/verify/detail/vector_access.h>
 
 namespace plumbline::verify {
-
-/// Random numbers of one sample, in [0, 1): as many as the pair says it uses.
-using Uniforms = std::array<double, 3>;
-
-/// A colour or spectrum as the checks keep it; a spectrum of more than 8 bands is thinned out to 8.
-struct Channels {
-  static constexpr std::size_t kMost = 8;
-  std::size_t count = 0;
-  std::array<double, kMost> value{};
-
-  double operator[](std::size_t i) const { return value[i]; }
-  friend bool operator==(const Channels&, const Channels&) = default;
-};
-
-/// A density that a record does not state.
-inline constexpr double kNotApplicable = std::numeric_limits<double>::quiet_NaN();
-
-/// What a sampler returned.
-struct SampleRecord {
-  Vec3 x{};                        ///< the point; of a BSDF, wi
-  Channels weight = {};            ///< value/pdf that the record states; empty: it states none
-  std::optional<double> pdf = {};  ///< density that the record states, if it does
-  double mass = 0;                 ///< > 0: an atom with this probability, not a point of a density
-};
 
 /// One lobe of a mixture, as if it were the whole: with probability `probability` the sampler draws
 /// from it, so that pdf = Σ probability · lobe pdf.
@@ -100,6 +78,9 @@ struct SamplingPair {
   /// What weight · pdf must equal: f·|cosθ| of a BSDF. Empty where the pair has no weight.
   Many<Channels(Vec3)> value;
 
+  /// Numbers that lead to a point: of several, any. Empty where the pair has no inverse.
+  Many<Uniforms(Vec3)> inverse;
+
   std::vector<PairLobe> lobes;  ///< of a mixture; empty: one smooth map
 
   /// Several u lead to the same point. With `preimages` the Jacobian check sums over them; without,
@@ -118,47 +99,56 @@ struct SamplingPair {
   void next(Random& random, std::span<std::optional<SampleRecord>> samples) const;
 };
 
-namespace detail {
-
-template <class P>
-std::optional<SampleRecord> record_of_point(const P& point) {
-  return SampleRecord{to_point(point)};
-}
-
-template <class P>
-std::optional<SampleRecord> record_of_point(const std::optional<P>& point) {
-  if (!point) return std::nullopt;
-  return record_of_point(*point);
-}
-
-}  // namespace detail
-
-/// A pair from a plain map and its density, for warps and the like.
+/// A pair from a plain map and its density, for warps, lights and the like.
 ///
 /// @tparam Point   of the user: a number, or a vector with x, y (, z) or operator[]
-/// @param sample   one or two uniform numbers of the point's scalar type, or a Random&, to a point
-///                 or an optional point
+/// @param sample   one to eight uniform numbers of the point's scalar type, or a Random&; to a
+/// point
+///                 or an optional one, or to a record of a point (point, position, wi, direction or
+///                 dir) with weight (throughput, value, f), pdf or both. With more than three
+///                 numbers the Jacobian is skipped.
 /// @param pdf      of a point
-template <class Point, class Sample, class Pdf>
-SamplingPair sampling_pair(std::string name, Domain domain, Sample sample, Pdf pdf) {
-  using T = PointScalar<Point>;
+/// @param value    of a point, a number or colour: what weight · pdf must equal
+template <class Point, class Sample, class Pdf, class Value = detail::NoValue>
+SamplingPair sampling_pair(std::string name, Domain domain, Sample sample, Pdf pdf,
+                           Value value = {}) {
   SamplingPair pair;
   pair.name = std::move(name);
   pair.domain = std::move(domain);
+  using T = PointScalar<Point>;
   pair.epsilon = std::is_same_v<T, float> ? 0x1p-24 : 0x1p-53;
-  if constexpr (requires(Random & random) { sample(random); }) {
-    pair.draw = [sample](Random& random) { return detail::record_of_point(sample(random)); };
-  } else if constexpr (requires(T u) { sample(u, u); }) {
-    pair.sample = [sample](const Uniforms& u) {
-      return detail::record_of_point(sample(static_cast<T>(u[0]), static_cast<T>(u[1])));
+  constexpr std::size_t numbers = detail::numbers_taken<T, Sample>();
+  if constexpr (numbers == 0) {
+    pair.draw = [sample](Random& random) { return detail::record_of_plain(sample(random)); };
+  } else if constexpr (numbers > std::tuple_size_v<Uniforms>) {
+    pair.draw = [sample](Random& random) {
+      std::array<T, numbers> u;
+      for (T& number : u) number = uniform<T>(random);
+      return detail::record_of_plain(std::apply(sample, u));
     };
   } else {
-    pair.numbers = 1;
+    pair.numbers = static_cast<int>(numbers);
     pair.sample = [sample](const Uniforms& u) {
-      return detail::record_of_point(sample(static_cast<T>(u[0])));
+      return detail::record_of_plain(detail::call_with<T, numbers>(sample, u));
     };
   }
   pair.pdf = [pdf](const Vec3& x) { return static_cast<double>(pdf(from_point<Point>(x))); };
+  if constexpr (!std::is_same_v<Value, detail::NoValue>) {
+    pair.value = [value](const Vec3& x) { return to_channels(value(from_point<Point>(x))); };
+  }
+  return pair;
+}
+
+/// The same pair with the inverse of its map.
+///
+/// @tparam Point    as for `sampling_pair`
+/// @param inverse   of a point, to the numbers that lead there: one, or as many as x, y (, z) or
+///                  operator[] give
+template <class Point, class Inverse>
+SamplingPair with_inverse(SamplingPair pair, Inverse inverse) {
+  pair.inverse = [inverse](const Vec3& x) -> Uniforms {
+    return to_point(inverse(from_point<Point>(x)));
+  };
   return pair;
 }
 
@@ -187,7 +177,7 @@ struct ContractOptions : CheckSettings {
   double deviation = 0.0125;
 };
 
-/// The whole battery on one sampling pair: record and weight pointwise, support, Jacobian,
+/// The whole battery on one sampling pair: record and weight pointwise, support, Jacobian, inverse,
 /// integral, chi-square. Results are named pair/check; a check that the pair has no ground for is
 /// left out, one that it asks to skip says so (inconclusive, as expected).
 ///
@@ -207,6 +197,12 @@ CheckResult check_jacobian(const SamplingPair& pair, const ContractOptions& opti
 /// finite, not negative, and positive wherever the value is; points lie in the domain, also at the
 /// corners of the unit square. What rounding of the point itself may change is allowed for.
 Report check_pointwise(const SamplingPair& pair, const ContractOptions& options = {});
+
+/// sample(inverse(x)) = x, at samples and anywhere where the density is positive. What rounding of
+/// the point and of the numbers may change is allowed for.
+///
+/// @throws std::invalid_argument for a pair without `inverse`, or without a `sample` of numbers
+CheckResult check_inverse(const SamplingPair& pair, const ContractOptions& options = {});
 
 /// ∫pdf + atoms + rejected share = 1: a fit on adaptive cells, corrected at random nodes, with its
 /// sampling error.

@@ -5,8 +5,8 @@
 #include <optional>
 #include <type_traits>
 
+#include <plumbline/verify/detail/record.h>
 #include <plumbline/verify/detail/vector_access.h>
-#include <plumbline/verify/pair.h>
 
 /// Reading what samplers of other projects return, by the names that they use.
 namespace plumbline::verify {
@@ -92,14 +92,19 @@ bool record_is_delta(const R& r) {
 
 /// A record that says only that it is an atom states the probability as its pdf.
 template <class R>
-SampleRecord read_plain_record(const R& r) {
-  SampleRecord out{record_direction(r), record_weight(r), record_pdf(r)};
+void take_mass(const R& r, SampleRecord& out) {
   if constexpr (requires { static_cast<double>(r.mass); }) {
     out.mass = static_cast<double>(r.mass);
   } else if (record_is_delta(r)) {
     out.mass = out.pdf.value_or(kNotApplicable);
     out.pdf = std::nullopt;
   }
+}
+
+template <class R>
+SampleRecord read_plain_record(const R& r) {
+  SampleRecord out{record_direction(r), record_weight(r), record_pdf(r)};
+  take_mass(r, out);
   return out;
 }
 

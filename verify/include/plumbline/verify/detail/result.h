@@ -35,6 +35,7 @@ enum class CheckKind {
   finite,
   jacobian,
   jacobian_autodiff,
+  inverse,
   integral,
   chi_square,
 
@@ -129,6 +130,16 @@ struct Interval {
   friend bool operator==(const Interval&, const Interval&) = default;
 };
 
+/// A bin that samples were counted in, in the square of the domain's chart; a point i of a discrete
+/// set stands from i to i + 1.
+struct Bin {
+  Interval x, y;
+  double expected = 0, expected_error = 0;  ///< samples, and its standard error
+  double observed = 0;
+
+  friend bool operator==(const Bin&, const Bin&) = default;
+};
+
 /// The outcome of one check. Plain data: what a person needs to act on it, what the page shows, and
 /// what replays it. What a kind of check has no use for stays empty.
 struct CheckResult {
@@ -159,6 +170,9 @@ struct CheckResult {
   /// Further numbers worth keeping (degrees of freedom, bins, a variance), in the order in which
   /// they are shown.
   std::vector<FigureValue> figures;
+
+  /// What a chi-square test that failed has counted, in at most 256 bins.
+  std::vector<Bin> bins;
 
   /// The first value of a figure; nullopt if the result has none.
   std::optional<double> figure(Figure figure) const;
