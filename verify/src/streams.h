@@ -29,6 +29,16 @@ enum class Stream : std::uint64_t {
   own_nodes = 20,     ///< samples at which an integral's fit is corrected
   nodes = 21,         ///< random points at which it is
 
+  // Of pairs on products of domains.
+  joint_pilot = 70,      ///< samples that shape bins and cells
+  joint_samples = 71,    ///< that chi-square counts
+  joint_own_nodes = 72,  ///< samples at which an integral's fit is corrected
+  joint_nodes = 73,      ///< random points at which it is
+  joint_rejected = 74,   ///< that show the rejected share
+  joint_rounding = 75,   ///< samples at which the rounding of the pdf is measured
+  joint_points = 76,     ///< samples and points of the pointwise checks
+  joint_jacobian = 77,   ///< uniform numbers to differentiate at
+
   // Of a diagnosis, which has one seed: the same report gets the same cause.
   asked = 40,           ///< samples that are asked about twice, or looked at as they are
   asked_between = 41,   ///< what is asked between two times

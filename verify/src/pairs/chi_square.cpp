@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <plumbline/verify/detail/stopwatch.h>
 
@@ -36,7 +37,7 @@ struct Category {
     variance += c.variance;
     observed += c.observed;
   }
-  bool resolved() const { return variance <= kErrorOfMass * expected; }
+  bool resolved(double error_of_mass) const { return variance <= error_of_mass * expected; }
   double pull() const {
     return (observed - expected) / std::sqrt(std::max(expected, 1.0) + variance);
   }
@@ -44,6 +45,7 @@ struct Category {
 
 /// The categories of one depth, sorted by how they can be tested.
 struct Categories {
+  double error_of_mass = 0;     // that counts as known, see test_level
   std::vector<Category> large;  // enough expected, and well known
   Category small, unresolved;   // pools
   bool impossible = false;      // samples where nothing is expected
@@ -51,7 +53,7 @@ struct Categories {
   void add(const Category& c) {
     if (c.expected <= 0 && c.variance <= 0) {
       impossible = impossible || c.observed > 0;
-    } else if (!c.resolved()) {
+    } else if (!c.resolved(error_of_mass)) {
       unresolved.add(c);
     } else if (c.expected < kSmallestExpected) {
       small.add(c);
@@ -61,19 +63,26 @@ struct Categories {
   }
 };
 
-/// Chance of the worst of a few categories, each by the exact distribution.
+/// Chance of the worst of a few categories, each by the exact distribution where its mass is known.
 double exact_p(const std::vector<Category>& categories, double n) {
   if (categories.empty()) return 1;
   double smallest = 1;
   for (const Category& c : categories) {
-    smallest = std::min(smallest, binomial_two_sided(c.observed, n, std::min(1.0, c.expected / n)));
+    const double p = c.resolved(kErrorOfMass)
+                         ? binomial_two_sided(c.observed, n, std::min(1.0, c.expected / n))
+                         : 2 * normal_tail(std::abs(c.pull()));
+    smallest = std::min(smallest, p);
   }
   return std::min(1.0, smallest * static_cast<double>(categories.size()));
 }
 
 void test_categories(LevelTest& test, Categories& categories, double n) {
   double with_error = 0, inverse_expected = 0;
-  if (categories.unresolved.expected > 0 && categories.unresolved.resolved()) {
+  if (!categories.small.resolved(kErrorOfMass)) {
+    categories.unresolved.add(std::exchange(categories.small, {}));
+  }
+  if (categories.unresolved.expected > 0 &&
+      categories.unresolved.resolved(categories.error_of_mass)) {
     categories.large.push_back(categories.unresolved);  // errors of many average out
   } else {
     test.unresolved = categories.unresolved.expected / n;
@@ -96,11 +105,13 @@ void test_categories(LevelTest& test, Categories& categories, double n) {
   test.p_value = categories.impossible ? 0 : std::min(1.0, tests * std::min(p_large, p_small));
 }
 
-LevelTest test_level(const BinnedPair& pair, int depth) {
-  const BinTable table = table_of(pair, depth);
+}  // namespace
+
+LevelTest test_level(const BinTable& table, int depth, double n, double error_of_mass) {
   LevelTest test;
   test.depth = depth;
   Categories categories;
+  categories.error_of_mass = error_of_mass;
   for (std::size_t i = 0; i < table.expected.size(); ++i) {
     const Category bin{table.expected[i], table.variance[i], table.observed[i]};
     categories.add(bin);
@@ -109,7 +120,7 @@ LevelTest test_level(const BinnedPair& pair, int depth) {
       test.worst_pull = bin.pull();
     }
   }
-  test_categories(test, categories, static_cast<double>(pair.counts().drawn));
+  test_categories(test, categories, n);
   return test;
 }
 
@@ -119,8 +130,6 @@ std::vector<int> depths_of(int finest) {
   depths.push_back(finest);
   return depths;
 }
-
-}  // namespace
 
 BinTable table_of(const BinnedPair& pair, int depth) {
   const double n = static_cast<double>(pair.counts().drawn);
@@ -135,14 +144,25 @@ BinTable table_of(const BinnedPair& pair, int depth) {
   return table;
 }
 
+// A deviation δ adds n δ² to the statistic, whose spread is then √(2 k + 4 n δ²): seen with 99 %
+// when n δ² − 2.33 √(2 k + 4 n δ²) reaches the gap between the critical value and k.
+double detectable_deviation(double degrees, double level, double n) {
+  const double k = degrees, z = normal_quantile(0.01);
+  const double gap = chi_square_quantile(level, k) - k;
+  const double excess = gap + 2 * z * z + z * std::sqrt(4 * z * z + 4 * gap + 2 * k);
+  return std::sqrt(excess / n);
+}
+
 ChiSquareLook::ChiSquareLook(const ContractOptions& options, const BinnedPair& pair,
                              const RejectedShare& rejected, double fail_level, double pass_level)
     : options_(options), pair_(pair) {
   const MassBalance mass = balance_mass(pair, rejected);
   excess_ = mass.excess();
   excess_error_ = mass.error(fail_level / 2);
-  for (const int depth : depths_of(pair.depth())) levels_.push_back(test_level(pair, depth));
   const double n = static_cast<double>(pair.counts().drawn);
+  for (const int depth : depths_of(pair.depth())) {
+    levels_.push_back(test_level(table_of(pair, depth), depth, n, kErrorOfMass));
+  }
   const std::vector<AtomCount>& atoms = pair.counts().atoms;
   // The atoms share one more level, where there are any.
   tests_ = static_cast<double>(levels_.size()) + (atoms.empty() ? 0 : 1);
@@ -156,12 +176,7 @@ ChiSquareLook::ChiSquareLook(const ContractOptions& options, const BinnedPair& p
   }
   const LevelTest& coarse = levels_.front();
   bound_ = std::sqrt(noncentrality_limit(coarse.statistic, coarse.degrees, pass_level) / n);
-  // A deviation δ adds n δ² to the statistic, whose spread is then √(2 k + 4 n δ²): seen with 99 %
-  // when n δ² − 2.33 √(2 k + 4 n δ²) reaches the gap between the critical value and k.
-  const double k = coarse.degrees, z = normal_quantile(0.01);
-  const double gap = chi_square_quantile(level_, k) - k;
-  const double excess = gap + 2 * z * z + z * std::sqrt(4 * z * z + 4 * gap + 2 * k);
-  detectable_ = std::sqrt(excess / n);
+  detectable_ = detectable_deviation(coarse.degrees, level_, n);
 }
 
 const LevelTest& ChiSquareLook::worst() const {

@@ -26,6 +26,17 @@ struct LevelTest {
   double unresolved = 0;  ///< share of the mass in bins whose mass is not known well enough
 };
 
+/// @param n              samples drawn, rejected ones included
+/// @param error_of_mass  a bin is tested where the error of its mass adds no more than that share
+///                       to the variance of its count; the others are pooled
+LevelTest test_level(const BinTable& table, int depth, double n, double error_of_mass);
+
+/// Coarse to fine.
+std::vector<int> depths_of(int finest);
+
+/// Smallest deviation, root mean square over the bins, that a test at a level finds with 99 %.
+double detectable_deviation(double degrees, double level, double n);
+
 /// One look at the counts: all depths under one level, then the verdict.
 class ChiSquareLook {
  public:
