@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -154,6 +154,40 @@ TEST(JointPairs, CallsARidgeThatItCannotResolveInconclusive) {
   }
   // It is the masses that are not known: what the map does is.
   expect_fails(joint_pairs::ridge(0.001, Fault::area), {CheckKind::jacobian});
+}
+
+TEST(JointPairs, FailsNothingRightThatItMayHardlyLookAt) {
+  // Two nodes in a bin: one whose nodes miss its peak has a mass that is too small, and must not be
+  // taken for well known.
+  for (int run = 0; run < 3; ++run) {
+    const JointPair pair = joint_pairs::subsurface();
+    ContractOptions options = joint_options("few evaluations " + std::to_string(run));
+    options.evaluations = 20'000;
+    options.finest_bins = 4096;
+    options.samples = 200'000;
+    const CheckResult r = check_chi_square(pair, options);
+    EXPECT_EQ(r.verdict, Verdict::inconclusive) << describe(r);
+    EXPECT_EQ(r.advice, "allow more `evaluations`");
+  }
+}
+
+TEST(JointPairs, FindsPointsAndDensitiesThatAreNone) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : {-0.5, 2.5, kNan, std::numeric_limits<double>::infinity()}) {
+    JointPair pair = joint_pairs::box(3, false);
+    pair.sample = [bad, sample = pair.sample](const JointUniforms& u) {
+      auto record = sample(u);
+      if (u[1] > 0.99) record->x[1][0] = bad;
+      return record;
+    };
+    expect_fails(
+        pair, {std::isfinite(bad) ? CheckKind::support : CheckKind::finite, CheckKind::chi_square});
+  }
+  for (const double bad : {-0.1, kNan}) {
+    JointPair pair = joint_pairs::box(3, false);
+    pair.pdf = [bad, pdf = pair.pdf](const JointPoint& x) { return x[2][0] > 1.9 ? bad : pdf(x); };
+    expect_fails(pair, {CheckKind::finite, CheckKind::chi_square});
+  }
 }
 
 TEST(JointPairs, PassesABallWhoseCornersAreRejected) { expect_pass(joint_pairs::ball()); }

@@ -27,8 +27,6 @@ constexpr double kEven = 0.2, kByVolume = 0.15;
 constexpr double kLeastNodes = 2;
 // A standard normal exceeds that, on either side, once in a thousand times.
 constexpr double kNormal = 3.3;
-// A quadratic leaves several times less where it is smooth than its own nodes say.
-constexpr double kHopeOfCube = 4;
 constexpr double kNarrowest = 1e-12;
 // Pilot samples that take up less than that of a cell's side are a crowd.
 constexpr double kCrowd = 0.7;
@@ -229,9 +227,10 @@ class CubeIntegrator {
     add_own_nodes();
     for (const CubeCell& cell : cells_) {
       if (cell.halves != 0) continue;
-      // Few nodes may miss what the fit's own have seen.
-      const double hoped = std::pow(cell.roughness / kHopeOfCube, 2) / cell.nodes;
-      integral.variance[cell.bin] += std::max(0.0, hoped - cell.measured);
+      // Few nodes may miss what the fit's own have seen: a mass that is too small by that would
+      // look well known.
+      const double expected = cell.roughness * cell.roughness / cell.nodes;
+      integral.variance[cell.bin] += std::max(0.0, expected - cell.measured);
     }
     for (std::size_t b = 0; b < tree_.bins(); ++b) {
       integral.total += integral.value[b];
@@ -316,11 +315,8 @@ class CubeIntegrator {
     double resting = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       CubeCell* cell = leaf_at(points[i]);
-      if (cell == nullptr) {
-        resting += 1;
-      } else if (add_term(*cell, points[i], values[i]) > 0.5) {
-        resting += 1;
-      }
+      const double share = cell == nullptr ? 1 : add_term(*cell, points[i], values[i]);
+      if (share > 0.5) resting += 1;
     }
     result_.rests_on_own = resting / std::max(1.0, static_cast<double>(own_));
   }
