@@ -111,12 +111,12 @@ TEST(CubeMass, IsWithinItsErrorOfTheTruth) {
   // Never more than the error at the level of a fail; the bound at 99.9 % is kept by nearly all.
   for (std::size_t dimension = 1; dimension <= 4; ++dimension) {
     int beyond = 0;
-    for (int run = 0; run < 15; ++run) {
+    for (int run = 0; run < 10; ++run) {
       const std::uint64_t seed = tests::check_seed("mass " + std::to_string(run)) + dimension;
-      const MassIntegral mass = mass_of({dimension, false}, seed, 60'000, 5).integral;
+      const MassIntegral mass = mass_of({dimension, false}, seed, 40'000, 5).integral;
       EXPECT_LT(std::abs(mass.total - 1), mass.error(1e-10));
       beyond += std::abs(mass.total - 1) > mass.error(1e-3) ? 1 : 0;
-      EXPECT_LT(mass.error(1e-3), 0.02);
+      EXPECT_LT(mass.error(1e-3), 0.03);
     }
     EXPECT_LE(beyond, 2) << dimension;
   }

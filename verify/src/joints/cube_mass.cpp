@@ -28,6 +28,8 @@ constexpr double kLeastNodes = 2;
 // A standard normal exceeds that, on either side, once in a thousand times.
 constexpr double kNormal = 3.3;
 constexpr double kNarrowest = 1e-12;
+// Cells, halved ones included, that lines may cut the bins into.
+constexpr std::size_t kCellsPerBin = 8;
 // Pilot samples that take up less than that of a cell's side are a crowd.
 constexpr double kCrowd = 0.7;
 
@@ -90,6 +92,35 @@ class CubeIntegrator {
       cell.first = first, cell.last = pilot_.size();
     }
     add(std::move(cells));
+    while (cut_at_lines()) {
+    }
+  }
+
+  /// Cuts cells that a line runs through along which the density may jump, once each, as long as
+  /// they do not become many times what bins there are: beyond that, nodes see the jumps.
+  bool cut_at_lines() {
+    std::vector<std::size_t> leaves;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      CubeCell& cell = cells_[i];
+      for (std::size_t d = 0; d < dimension_ && cell.halves == 0; ++d) {
+        const auto after = [&](double x) {
+          return std::upper_bound(q_.breaks[d].begin(), q_.breaks[d].end(), x);
+        };
+        const auto first = after(cell.box.low[d]);
+        const auto last = std::lower_bound(first, q_.breaks[d].end(), cell.box.high[d]);
+        if (first == last || cell.box.size(d) < kNarrowest) continue;
+        cell.cut = d;
+        cell.at = *(first + (last - first) / 2);
+        leaves.push_back(i);
+        break;
+      }
+    }
+    if (leaves.empty() || cells_.size() + 2 * leaves.size() > kCellsPerBin * tree_.bins()) {
+      for (const std::size_t i : leaves) look_at(cells_[i]);
+      return false;
+    }
+    halve(leaves);
+    return true;
   }
 
   std::vector<double> values_at(const std::vector<CubePoint>& points) {

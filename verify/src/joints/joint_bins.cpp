@@ -21,7 +21,9 @@ constexpr double kOutside = 1e-4;
 constexpr double kPromise = 1e-3;
 // Of the tolerance: what the masses may be off by, and what a rejected share may be.
 constexpr double kMassErrorPerTolerance = 0.25, kRejectedErrorPerTolerance = 0.4;
-constexpr std::uint64_t kRejectedProbes = 100'000, kMostRejectedDraws = 16'000'000;
+constexpr std::uint64_t kRejectedProbes = 100'000;
+// Draws for it, at most, in units of the samples of the chi-square.
+constexpr std::uint64_t kRejectedDrawsPerSample = 4;
 // Sampling one standard deviation of the deviation that a pass excludes, see chi_square.cpp: masses
 // to a fiftieth of it over 64 bins.
 constexpr double kMassErrorPerDeviation = 0.02;
@@ -232,7 +234,7 @@ CountedShare JointBins::rejected() const {
   const double p = std::max(share.value(), 1 / share.trials);
   const double needed = 1.05 * p * (1 - p) * std::pow(z / wanted, 2);
   if (needed > share.trials) {
-    const double most = static_cast<double>(kMostRejectedDraws);
+    const double most = static_cast<double>(kRejectedDrawsPerSample * options_.samples);
     draw(static_cast<std::uint64_t>(std::min(needed - share.trials, most)));
   }
   return share;

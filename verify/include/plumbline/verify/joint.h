@@ -168,7 +168,7 @@ CheckResult check_jacobian(const JointPair& pair, const ContractOptions& options
 /// ∫pdf + rejected share = 1. The cube of all dimensions is cut into cells where the density is
 /// rough; quadratic fits on them are corrected at random nodes, which leaves no error but that of
 /// sampling. A pass allows `mass_tolerance`; unless stated 1e-3 where it is known that well, else
-/// 5e-3 (jumps across all dimensions); the result says which.
+/// 5e-3 (jumps across all dimensions, a large rejected share); the result says which.
 CheckResult check_integral(const JointPair& pair, const ContractOptions& options = {});
 
 /// Chi-square test of samples against the masses of bins in all dimensions, halved at medians of
