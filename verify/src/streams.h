@@ -54,7 +54,19 @@ enum class Stream : std::uint64_t {
   mean_direction = 53,  ///< samples of a generator
   discrete = 54,        ///< samples of a set, counted again
   atom_shares = 55,     ///< samples that show how often an atom is chosen
-  consumed = 56         ///< numbers that a sampler with a generator takes
+  consumed = 56,        ///< numbers that a sampler with a generator takes
+
+  // Of BSDFs that answer at random.
+  stochastic_views = 80,         ///< azimuths to look from
+  stochastic_pilot = 81,         ///< samples that shape regions
+  stochastic_samples = 82,       ///< that regions are held to
+  stochastic_points = 83,        ///< at which eval and pdf are asked
+  stochastic_lights = 84,        ///< where the lights are
+  stochastic_mis = 85,           ///< multiple importance samples
+  stochastic_light_points = 86,  ///< the same light without the BSDF
+  stochastic_there = 87,         ///< pairs of directions, one way
+  stochastic_back = 88,          ///< others, the other way
+  stochastic_albedo = 89         ///< samples of a known albedo
 };
 
 inline Random random_for(std::uint64_t seed, Stream stream) {
