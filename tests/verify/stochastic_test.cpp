@@ -13,6 +13,7 @@
 
 #include "correct_pairs.h"
 #include "layered_walk.h"
+#include "textbook_glass.h"
 
 namespace plumbline::verify {
 namespace {
@@ -81,6 +82,18 @@ TEST(Stochastic, WrongValuesOfEvalShow) {
 
 TEST(Stochastic, AnErrorThatIsTheSameFromEachDirectionShowsInReciprocity) {
   EXPECT_TRUE(failing(check_fault(WalkFault::one_way_fresnel, "one way")).contains("reciprocity"));
+}
+
+TEST(Stochastic, ReciprocityAcrossARefractionTakesTheIndexIntoAccount) {
+  using Direction = tests::Vector<double>;
+  const tests::TextbookGlass<double> glass{0.3, 1.5};
+  const StochasticBsdf bsdf = stochastic_bsdf("glass", erase_bsdf<Direction, double>(glass));
+  StochasticOptions o = seen_from({}, "stochastic/glass");
+  o.back = true;
+  o.eta = 1.5;
+  PLUMBLINE_EXPECT_PASS(repeatable(check_stochastic_bsdf(bsdf, o)));
+  o.eta = 1;
+  EXPECT_EQ(failing(check_stochastic_bsdf(bsdf, o)), std::set<std::string>{"reciprocity"});
 }
 
 TEST(Stochastic, AWalkThatEndsTooEarlyEverywhereShowsInAKnownAlbedo) {

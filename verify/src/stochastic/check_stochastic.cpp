@@ -97,14 +97,12 @@ Vec3 uniform_direction(Random& random) {
 Report check_stochastic_bsdf(const StochasticBsdf& bsdf, const StochasticOptions& options) {
   refuse_senseless_views(bsdf, options);
   Report all;
-  bool black = true;
-  std::size_t channels = 0;
+  bool black = !options.angles.empty();
   std::uint64_t seed = options.seed;
   for (const auto& [wo, name] : stochastic_views(options)) {
     seed += 0x9e3779b97f4a7c15u;  // each view draws numbers of its own
     const StochasticView view(bsdf, options, wo, bsdf.name + "/" + name, seed);
     black = black && view.black;
-    channels = std::max(channels, view.channels);
     std::vector<CheckResult> results{check_eval_mean(view)};
     if (bsdf.pdf && options.unbiased_pdf) results.push_back(check_pdf_mean(view));
     if (bsdf.pdf && options.mis) results.push_back(check_mis_mean(view));
@@ -114,8 +112,8 @@ Report check_stochastic_bsdf(const StochasticBsdf& bsdf, const StochasticOptions
       all.results.push_back(std::move(r));
     }
   }
-  if (options.reciprocal) {
-    all.results.push_back(check_stochastic_reciprocity(bsdf, options, channels));
+  if (options.reciprocal && (options.front || options.back)) {
+    all.results.push_back(check_stochastic_reciprocity(bsdf, options));
   }
   if (black) {
     ContractOptions contract;

@@ -1,6 +1,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bsdfs/bsdf_result.h"
@@ -130,22 +132,39 @@ constexpr std::size_t kKindsOfPairs = 12;
 // About half of all pairs of one side are nearer.
 constexpr double kNearCosines = 0.25;
 
-SortedPair draw_sorted_pair(const StochasticOptions& options, Random& random) {
-  const auto draw = [&] {
+/// Pairs at random, and pairs that are sampled: in narrow lobes nothing else falls. Both ways are
+/// asked about pairs of one distribution, whatever that is.
+class SortedPairs {
+ public:
+  SortedPairs(const StochasticBsdf& bsdf, const StochasticOptions& options)
+      : bsdf_(bsdf), options_(options) {}
+
+  SortedPair draw(Random& random) const {
+    Vec3 a = looked_at(random), b = looked_at(random);
+    if (random.uniform() < 0.5) {
+      const std::optional<SampleRecord> s = bsdf_.sample(a, random);
+      if (s && !is_atom(*s) && (s->x[2] > 0 ? options_.front : options_.back)) b = s->x;
+    }
+    const bool one_side = a[2] * b[2] > 0;
+    const bool in_order = one_side ? std::abs(a[2]) >= std::abs(b[2]) : a[2] > b[2];
+    if (!in_order) std::swap(a, b);
+    const std::size_t side = one_side ? (a[2] > 0 ? 0 : 1) : 2;
+    const bool far = std::abs(std::abs(a[2]) - std::abs(b[2])) > kNearCosines;
+    const bool left = a[0] * b[1] - a[1] * b[0] > 0;
+    return {a, b, 4 * side + (far ? 2 : 0) + (left ? 1 : 0)};
+  }
+
+ private:
+  Vec3 looked_at(Random& random) const {
     Vec3 w = uniform_direction(random);
-    if (!options.back) w[2] = std::abs(w[2]);
-    if (!options.front) w[2] = -std::abs(w[2]);
+    if (!options_.back) w[2] = std::abs(w[2]);
+    if (!options_.front) w[2] = -std::abs(w[2]);
     return w;
-  };
-  Vec3 a = draw(), b = draw();
-  const bool one_side = a[2] * b[2] > 0;
-  const bool in_order = one_side ? std::abs(a[2]) >= std::abs(b[2]) : a[2] > b[2];
-  if (!in_order) std::swap(a, b);
-  const std::size_t side = one_side ? (a[2] > 0 ? 0 : 1) : 2;
-  const bool far = std::abs(std::abs(a[2]) - std::abs(b[2])) > kNearCosines;
-  const bool left = a[0] * b[1] - a[1] * b[0] > 0;
-  return {a, b, 4 * side + (far ? 2 : 0) + (left ? 1 : 0)};
-}
+  }
+
+  const StochasticBsdf& bsdf_;
+  const StochasticOptions& options_;
+};
 
 std::vector<JointQuantity> quantities_of_pairs(std::size_t channels) {
   std::vector<JointQuantity> list;
@@ -166,18 +185,23 @@ std::vector<JointQuantity> quantities_of_pairs(std::size_t channels) {
 }  // namespace
 
 CheckResult check_stochastic_reciprocity(const StochasticBsdf& bsdf,
-                                         const StochasticOptions& options, std::size_t channels) {
+                                         const StochasticOptions& options) {
+  Random there = random_for(options.seed, Stream::stochastic_there);
+  Random back = random_for(options.seed, Stream::stochastic_back);
+  const std::size_t channels = bsdf.eval({0, 0, 1}, {0, 0, 1}, there).count;
   MeanOptions o;
   o.subject = bsdf.name + "/reciprocity";
   o.seed = options.seed;
   o.budget = options.budget;
   o.tolerance = options.tolerance;
   o.max_samples = options.max_samples;
-  const auto sampler = [&](Random& random, bool back) {
-    return [&bsdf, &options, &random, back, channels](std::uint64_t count, JointMoments& moments) {
+  const SortedPairs pairs(bsdf, options);
+  const auto sampler = [&](Random& random, bool reversed) {
+    return [&bsdf, &options, &pairs, &random, reversed, channels](std::uint64_t count,
+                                                                  JointMoments& moments) {
       for (std::uint64_t i = 0; i < count; ++i) {
-        SortedPair p = draw_sorted_pair(options, random);
-        if (back) std::swap(p.first, p.second);
+        SortedPair p = pairs.draw(random);
+        if (reversed) std::swap(p.first, p.second);
         const Channels f = bsdf.eval(p.first, p.second, random);
         // Both cosines: f itself may have no variance near the horizon.
         const double factor =
@@ -189,8 +213,6 @@ CheckResult check_stochastic_reciprocity(const StochasticBsdf& bsdf,
       }
     };
   };
-  Random there = random_for(options.seed, Stream::stochastic_there);
-  Random back = random_for(options.seed, Stream::stochastic_back);
   CheckResult result =
       agree_jointly(o, quantities_of_pairs(channels), sampler(there, false), sampler(back, true));
   result.kind = CheckKind::reciprocity;

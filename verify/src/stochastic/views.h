@@ -40,7 +40,7 @@ CheckResult check_pdf_mean(const StochasticView& view);
 CheckResult check_mis_mean(const StochasticView& view);
 CheckResult check_known_albedo(const StochasticView& view);
 CheckResult check_stochastic_reciprocity(const StochasticBsdf& bsdf,
-                                         const StochasticOptions& options, std::size_t channels);
+                                         const StochasticOptions& options);
 
 /// A direction that is a sample of an atom, of whatever probability.
 inline bool is_atom(const SampleRecord& sample) { return sample.mass != 0; }

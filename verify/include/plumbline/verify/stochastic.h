@@ -89,9 +89,9 @@ struct StochasticOptions : CheckSettings {
 /// - `mis`: the mean of the multiple importance sample above, one sample of each, for two caps of
 ///   light and a smooth sky, with the balance and the power heuristic (β = 2), equals that of
 ///   sampling without the BSDF. pdf is asked after eval, from the same generator that goes on.
-/// - `albedo`, if known; `reciprocity`, over pairs of directions sorted by side, by how far their
-///   cosines lie apart and by the sense of the turn, which an error that averages out would have to
-///   match one by one.
+/// - `albedo`, if known; `reciprocity`, over pairs of directions, random and sampled ones, sorted
+///   by side, by how far their cosines lie apart and by the sense of the turn: an error would have
+///   to average out in each sort.
 ///
 /// Integrals use points of the check's own, spread as samples are. A value that is not finite, and
 /// a pdf below 0, fail. Results are named name/face angle/check. Code that works in a generator of
