@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <plumbline/renderer/assembly/names.h>
+#include <plumbline/verify/dependent.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline/verify/pair.h>
 #include <plumbline/verify/ratio.h>
@@ -72,6 +73,38 @@ TEST(SobolSampler, EveryAlignedRunOfSamplesIsANetSoThatPassesStayStratified) {
     ASSERT_TRUE(is_net(net_of(SamplerType::sobol, 3, first, 10, 1), 10)) << first;
   }
   ASSERT_TRUE(is_net(net_of(SamplerType::sobol, 3, 0, 16, 1), 16));
+}
+
+/// Two padded pairs of numbers of each sample, a pixel for each replicate.
+verify::PointSets padded_pairs(SamplerType type) {
+  verify::PointSets sets{std::string(renderer::name(type)), 4, {}};
+  sets.points = [type](std::uint64_t replicate, std::size_t n) {
+    std::vector<double> numbers;
+    for (std::uint64_t i = 0; i < n; ++i) {
+      Sampler random(type, check_seed("padded pairs"), replicate, i);
+      for (int pair = 0; pair < 2; ++pair) {
+        const Vec2f p = random.next_2d();
+        numbers.insert(numbers.end(), {double{p.x}, double{p.y}});
+      }
+    }
+    return numbers;
+  };
+  return sets;
+}
+
+TEST(SobolSampler, PaddedPairsAreSequencesOfNetsAndEachPointIsUniform) {
+  verify::NetOptions nets;
+  nets.seed = check_seed("sobol/net");
+  nets.sequence = true;
+  verify::ReplicateOptions replicates;
+  replicates.seed = check_seed("sobol/replicates");
+  expect_verdict(check_net(padded_pairs(SamplerType::sobol), nets));
+  expect_verdict(check_replicates(padded_pairs(SamplerType::sobol), replicates));
+
+  verify::CheckResult none = check_net(padded_pairs(SamplerType::independent), nets);
+  none.expected = verify::Verdict::fail;
+  expect_verdict(none);
+  expect_verdict(check_replicates(padded_pairs(SamplerType::independent), replicates));
 }
 
 TEST(SobolSampler, IndependentNumbersAreNoNet) {

@@ -66,7 +66,16 @@ enum class Stream : std::uint64_t {
   stochastic_light_points = 86,  ///< the same light without the BSDF
   stochastic_there = 87,         ///< pairs of directions, one way
   stochastic_back = 88,          ///< others, the other way
-  stochastic_albedo = 89         ///< samples of a known albedo
+  stochastic_albedo = 89,        ///< samples of a known albedo
+
+  // Of samples that depend on each other.
+  replicates = 90,            ///< the first of the replicates' numbers
+  contribution_pilot = 91,    ///< samples that shape regions
+  contribution_samples = 92,  ///< points with their weights
+  contribution_points = 93,   ///< at which the functions are integrated
+  chains_pilot = 94,          ///< starting points that shape regions
+  chains = 95,                ///< chains that have made steps
+  chains_start = 96           ///< chains that have made none
 };
 
 inline Random random_for(std::uint64_t seed, Stream stream) {

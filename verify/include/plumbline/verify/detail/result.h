@@ -45,6 +45,11 @@ enum class CheckKind {
   atoms,
   samples,  ///< whether it gives any
 
+  // Samples that depend on each other.
+  strata,
+  net,
+  replicates,  ///< whether each point is uniform over them
+
   // Of a whole tree: what its checks claim, and what its estimators should show.
   calibration,
   stability,
