@@ -71,6 +71,14 @@ TEST(Stochastic, ADeterministicBsdfPasses) {
                                        seen_from({30}, "stochastic/rough mirror"))));
 }
 
+TEST(Stochastic, ANarrowLobePasses) {
+  // Whose tails hold little, over most of the sphere: points that are even over a large cell there
+  // would hardly ever come upon the corner that holds it.
+  PLUMBLINE_EXPECT_PASS(
+      repeatable(check_stochastic_bsdf(stochastic_bsdf("narrow", erased(RoughMirror{0.05})),
+                                       seen_from({10, 75}, "stochastic/narrow"))));
+}
+
 TEST(Stochastic, WrongValuesOfEvalShow) {
   EXPECT_TRUE(failing(check_fault(WalkFault::no_pi, "no pi")).contains("eval"));
   const std::set<std::string> exit =

@@ -15,7 +15,7 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr int kPilotPoints = 1 << 13;
+constexpr int kPilotPoints = 1 << 15;
 constexpr int kDepthOfWeightRegions = 3;
 
 std::vector<Vec3> pilot_points(const ContributionSampler& sampler, std::uint64_t seed) {
@@ -47,6 +47,7 @@ CheckResult check_function(const ContributionSampler& sampler, const Contributio
   o.seed = options.seed;
   o.budget = options.budget;
   o.tolerance = options.tolerance;
+  o.n0 = kFirstJointLook;
   o.max_samples = options.max_samples;
   return agree_jointly(
       o, quantities,

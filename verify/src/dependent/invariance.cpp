@@ -66,6 +66,7 @@ CheckResult against_start(const MarkovChain& chain, const InvarianceOptions& opt
   o.seed = options.contract.seed;
   o.budget = options.contract.budget;
   o.tolerance = options.tolerance;
+  o.n0 = kFirstJointLook;
   o.max_samples = options.max_samples;
   Random moved = random_for(options.contract.seed + steps, Stream::chains);
   Random start = random_for(options.contract.seed + steps, Stream::chains_start);

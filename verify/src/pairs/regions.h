@@ -16,7 +16,9 @@ namespace plumbline::verify {
 class Regions {
  public:
   /// Cells do not straddle the domain's breaks: a few points just above a horizon would stand for
-  /// all that is below it.
+  /// all that is below it. They are halved where samples lie on one side of them: far out in the
+  /// tails of a narrow lobe a cell that holds a hundredth of the samples holds most of the domain,
+  /// and nearly all of the hundredth in a corner.
   ///
   /// @param pilot  samples; where there are few, regions are halves of each other
   /// @param depth  2^depth regions, ≤ kFineDepth
@@ -42,26 +44,32 @@ class Regions {
   double inverse_density(const Vec3& x) const;
 
  private:
-  // Points are even within each cell. So many keep within a few of the best variance.
   static constexpr int kFineDepth = 7;
 
-  /// Part of a finest bin.
+  /// Part of a finest bin, halved or not; points are even within a leaf.
   struct Piece {
-    Box box;
+    Box box{};
     std::size_t bin = 0;
-    double probability = 0;  ///< of `draw` to choose it
-    double up_to = 0;        ///< the same with all before it
+    std::size_t halves = 0;  ///< index of the lower half, 0: a leaf
+    std::size_t cut = 0;     ///< dimension in which it is halved
+    double samples = 0;      ///< of the pilot's
+    double probability = 0;  ///< of a leaf: that of `draw` to choose it
+    double up_to = 0;        ///< the same with all leaves before it
   };
 
   static std::vector<Point2> in_square(const Domain& domain, const std::vector<Vec3>& pilot);
-  std::size_t piece_of(const Point2& p) const;
+  std::size_t root_of(const Point2& p) const;
+  std::size_t leaf_of(const Point2& p) const;
+  void halve(std::size_t at, const std::vector<Point2>& samples, int depth);
+  void choose_probabilities();
 
   Domain domain_;
   std::vector<Point2> pilot_;  // as the tree has reordered it
   BinTree tree_;
   int depth_;
-  std::vector<Piece> pieces_;             // sorted by bin
+  std::vector<Piece> pieces_;             // those of the bins first, sorted by bin
   std::vector<std::size_t> first_piece_;  // of each bin
+  std::vector<std::size_t> leaves_;
 };
 
 }  // namespace plumbline::verify

@@ -8,6 +8,7 @@
 
 #include <plumbline/verify/stochastic.h>
 
+#include "means/joint_agreement.h"
 #include "pairs/battery.h"
 #include "pairs/uniforms.h"
 #include "stochastic/views.h"
@@ -18,7 +19,7 @@ namespace plumbline::verify {
 
 namespace {
 
-constexpr int kPilotOfView = 1 << 13;
+constexpr int kPilotOfView = 1 << 15;
 constexpr int kDepthOfViewRegions = 3;
 
 /// One for each angle and side, at a random azimuth.
@@ -82,6 +83,7 @@ MeanOptions mean_options(const StochasticView& view, const std::string& check) {
   o.seed = view.options.seed;
   o.budget = view.options.budget;
   o.tolerance = view.options.tolerance;
+  o.n0 = kFirstJointLook;
   o.max_samples = view.options.max_samples;
   return o;
 }

@@ -194,6 +194,7 @@ CheckResult check_stochastic_reciprocity(const StochasticBsdf& bsdf,
   o.seed = options.seed;
   o.budget = options.budget;
   o.tolerance = options.tolerance;
+  o.n0 = kFirstJointLook;
   o.max_samples = options.max_samples;
   const SortedPairs pairs(bsdf, options);
   const auto sampler = [&](Random& random, bool reversed) {
