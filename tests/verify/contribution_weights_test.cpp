@@ -80,6 +80,7 @@ ContributionOptions to_two_percent(const std::string& name) {
   ContributionOptions o;
   o.tolerance = 0.02;
   o.seed = check_seed("contribution weights/" + name);
+  o.constants = true;  // ramps are nowhere near to 0
   o.functions = {{"wave", [](const Vec3& x) { return 1 + std::sin(9 * x[0]); }}};
   return o;
 }
@@ -98,6 +99,19 @@ TEST(ContributionWeights, OfImportanceResamplingAreUnbiased) {
       repeatable(check_chosen(importance_resampling("ramp", ramp, ResamplingFault::none))));
   PLUMBLINE_EXPECT_PASS(repeatable(
       check_chosen(importance_resampling("half dark", ramp_or_dark, ResamplingFault::none))));
+}
+
+TEST(ContributionWeights, OfATargetThatComesNearToZeroAreHeldToTheTarget) {
+  // W alone has no variance to speak of there; f(X) W for f the target has.
+  const Target bell = [](double x) { return std::exp(-50 * (x - 0.3) * (x - 0.3)); };
+  ContributionOptions o;
+  o.tolerance = 0.03;
+  o.seed = check_seed("contribution weights/bell");
+  PLUMBLINE_EXPECT_PASS(repeatable(
+      check_contribution_weights(importance_resampling("bell", bell, ResamplingFault::none), o)));
+  const Report wrong = check_contribution_weights(
+      importance_resampling("bell, one less", bell, ResamplingFault::one_less), o);
+  EXPECT_EQ(wrong.verdict(), Verdict::fail) << wrong.summary();
 }
 
 TEST(ContributionWeights, WrongDivisorsAndDensitiesAreFound) {

@@ -133,14 +133,18 @@ struct ContributionOptions : CheckSettings {
   double tolerance = 0.01;
   std::uint64_t max_samples = std::uint64_t{1} << 23;  ///< of each check
 
-  /// Integrals of 1 too. Off where the target comes so near to 0 that W has no variance.
-  bool constants = true;
+  /// ∫1 too. Only where the target is bounded away from 0, as for `functions`.
+  bool constants = false;
 
-  std::vector<TestFunction> functions;  ///< further ones
+  /// Further f. f(X) W is f/p̂ at X times the mean of what candidates weigh: where f/p̂ varies by
+  /// thousands, rare choices carry the mean, and as long as no sample shows them correct code may
+  /// fail.
+  std::vector<TestFunction> functions;
 };
 
-/// Whether E[f(X) W] = ∫ f for f the target, f = 1 and further functions, each over 8 regions that
-/// hold equally many samples, and over all; f is taken as 0 wherever the target is.
+/// Whether E[f(X) W] = ∫ f for f the target and further functions, each over 8 regions that hold
+/// equally many samples, and over all; f is taken as 0 wherever the target is. The target over
+/// every region is enough in principle: E[W | x] times the density of X is 1 wherever it is right.
 ///
 /// X does not have the target's density for any finite number of candidates, and its own is not to
 /// be had; so neither a chi-square against the target nor W against 1/pdf would be right. That the
