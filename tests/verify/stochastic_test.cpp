@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 #include <plumbline_tests/support.h>
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <plumbline/verify/gtest.h>
 #include <plumbline/verify/stochastic.h>
