@@ -5,13 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <queue>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "bernstein.h"
 #include "pairs/batches.h"
+#include "pairs/halves_ahead.h"
 #include "pairs/tree_cell.h"
 #include "streams.h"
 
@@ -21,8 +21,7 @@ namespace {
 constexpr int kMaxRounds = 6;
 constexpr double kWorthwhile = 0.9;
 constexpr int kMostWithoutGain = 2;
-// The highest degree of a fit is several times what a smooth function leaves beyond it. What nodes
-// have measured needs no hope.
+// The highest degree of a fit is several times what a smooth function leaves; nodes need no hope.
 constexpr double kHope = 4;
 // At which it is decided whether the target is reached.
 constexpr double kPassLevel = 1e-3;
@@ -43,7 +42,8 @@ class Integrator {
         own_(question.own),
         nodes_(question.spread),
         random_(random_for(question.seed, Stream::nodes)),
-        roots_of_bin_(question.bins) {
+        roots_of_bin_(question.bins),
+        ahead_(question.integrand, question.dimension) {
     std::vector<std::vector<PilotPoint>> of_bin(q_.bins);
     for (const PilotPoint& s : draw_pilot()) of_bin[bin_at(s.p)].push_back(s);
     std::vector<std::vector<Box>> boxes_of_bin(q_.bins);
@@ -61,7 +61,9 @@ class Integrator {
         plans.push_back({box, bin, first, pilot_.size()});
       }
     }
-    add(plans);
+    std::vector<Point2> points;
+    for (const CellPlan& plan : plans) CellFit::add_points(plan.box, q_.dimension, points);
+    add(plans, ask(q_.integrand, points));
   }
 
   MassIntegral run() {
@@ -141,13 +143,10 @@ class Integrator {
     return pilot;
   }
 
-  void add(std::span<const CellPlan> plans) {
+  /// @param values  at the points of their fits
+  void add(std::span<const CellPlan> plans, const std::vector<double>& values) {
     const std::size_t each = CellFit::points(q_.dimension);
-    std::vector<Point2> points;
-    points.reserve(plans.size() * each);
-    for (const CellPlan& plan : plans) CellFit::add_points(plan.box, q_.dimension, points);
-    const std::vector<double> values = ask(q_.integrand, points);
-    evaluations_ += points.size();
+    evaluations_ += values.size();
     for (std::size_t i = 0; i < plans.size(); ++i) {
       const CellPlan& plan = plans[i];
       const CellFit fit(plan.box, q_.dimension, std::span(values).subspan(i * each, each));
@@ -195,16 +194,17 @@ class Integrator {
   void halve(std::size_t index) {
     const TreeCell cell = cells_[index];
     sum_of_squares_ -= cell.key * cell.key;
-    Box low = cell.box, high = cell.box;
-    low.high[cell.cut] = high.low[cell.cut] = cell.at;
+    const auto [low, high] = halves_of(cell);
     const auto at = [&](std::size_t i) { return pilot_.begin() + static_cast<std::ptrdiff_t>(i); };
     const auto middle = std::partition(at(cell.first), at(cell.last), [&](const PilotPoint& s) {
       return s.p[cell.cut] < cell.at;
     });
     const auto border = static_cast<std::size_t>(middle - pilot_.begin());
     cells_[index].halves = cells_.size();
+    const std::vector<double> values = ahead_.take(index, cells_, queue_);
     add(std::array{CellPlan{low, cell.bin, cell.first, border},
-                   CellPlan{high, cell.bin, border, cell.last}});
+                   CellPlan{high, cell.bin, border, cell.last}},
+        values);
   }
 
   /// The leaf that holds a point; none where rounding put it beside all.
@@ -377,7 +377,8 @@ class Integrator {
   std::vector<TreeCell> cells_;
   std::vector<NodeToAsk> nodes_to_ask_;
   std::vector<std::vector<std::size_t>> roots_of_bin_;
-  std::priority_queue<std::pair<double, std::size_t>> queue_;
+  HalvesAhead ahead_;
+  CellQueue queue_;
   double sum_of_squares_ = 0, keys_ = 0, nodes_to_share_ = 0, nodes_everywhere_ = 0;
   double own_variance_ = 0;  // of terms where most nodes are own samples
   std::uint64_t evaluations_ = 0;
