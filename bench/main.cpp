@@ -12,6 +12,7 @@
 
 #include "allocation.h"
 #include "equal_error.h"
+#include "languages.h"
 #include "ray_replay.h"
 #include "sampling_cost.h"
 #include "scaling.h"
@@ -48,7 +49,8 @@ std::vector<Part> make_parts(const std::filesystem::path& results) {
            [results](ResultLog& log, bool full) { measure_allocation(log, results, full); }},
           {"variance-claims", "variance_claims", measure_variance_claims, true},
           {"sampling-cost", "sampling_cost_table",
-           [results](ResultLog& log, bool full) { measure_sampling_cost(log, results, full); }}};
+           [results](ResultLog& log, bool full) { measure_sampling_cost(log, results, full); }},
+          {"languages", "languages", measure_languages}};
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ configure_package_config_file(
   "${PROJECT_BINARY_DIR}/plumbline-config.cmake"
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/plumbline)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/plumbline-config-version.cmake"
-                                 COMPATIBILITY SameMinorVersion)
+                                 COMPATIBILITY SameMajorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/plumbline-config.cmake"
               "${PROJECT_BINARY_DIR}/plumbline-config-version.cmake"
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/plumbline)

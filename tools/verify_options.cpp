@@ -51,7 +51,7 @@ void put_quick(verify::BsdfOptions& options) {
   verify::ContractOptions& contract = options.contract;
   contract.points /= 10;
   contract.jacobian_points /= 10;
-  contract.evaluations /= 40;
+  contract.evaluations /= 10;
   contract.finest_bins /= 16;
   contract.first_look /= 10;
   contract.samples /= 4;

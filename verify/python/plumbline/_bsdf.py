@@ -53,7 +53,7 @@ def check_bsdf(
 
     From each direction: the record and the weight pointwise, support, Jacobian, integral, chi-square,
     albedo, atoms; and reciprocity. On failure the report names the one cause that explains all of
-    it, or none. Functions get arrays of up to 65,536 rows and must answer row by row; what they
+    it, or none. Functions get arrays of up to 8,192 rows and must answer row by row; what they
     raise comes through.
 
     Args:

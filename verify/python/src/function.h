@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 
 #include <array>
+#include <cstddef>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -50,6 +51,9 @@ class Function {
   mutable std::array<py::object, 2> used_;  ///< of the last call, for the next
 };
 
+/// Rows that are worth a call: what is asked and answered stays in the cache.
+inline constexpr std::size_t kRowsAtOnce = std::size_t{1} << 13;
+
 /// As `verify` wants it; empty where Python's is None.
 template <class R, class... A>
 void assign(verify::Many<R(A...)>& to, const py::object& callable, std::string name,
@@ -57,7 +61,9 @@ void assign(verify::Many<R(A...)>& to, const py::object& callable, std::string n
   if (callable.is_none()) return;
   const auto function =
       std::make_shared<const Function>(callable, std::move(name), std::move(arguments), answer);
-  to = [function](std::span<const A>... a, std::span<R> out) { (*function)({a...}, out); };
+  to = verify::Many<R(A...)>(
+      [function](std::span<const A>... a, std::span<R> out) { (*function)({a...}, out); },
+      kRowsAtOnce);
 }
 
 }  // namespace plumbline::python

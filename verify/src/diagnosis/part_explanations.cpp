@@ -362,7 +362,9 @@ std::optional<Finding> explain_by_branches(const ReportEvidence& evidence) {
     while (u.size() < kPoints) u.push_back(map.draw(random));
     const std::vector<Vec3> points = points_of_density(ask(map.map(), u));
     const std::vector<double> pdfs = ask(pair.pdf, points);
-    const auto all_ways = map.ways(std::vector<BranchSearch::Target>(points.begin(), points.end()));
+    std::vector<BranchSearch::Target> targets;
+    for (const Vec3& x : points) targets.push_back({x, std::nullopt});
+    const auto all_ways = map.ways(targets);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Ways& ways = all_ways[i];
       if (!ways || ways->empty()) continue;

@@ -76,7 +76,7 @@ class Line {
         const bool in_upper_half = distance(jump.low, there[i]) < distance(there[i], jump.high);
         (in_upper_half ? jump.from : jump.to) = middles[i];
         (in_upper_half ? jump.low : jump.high) = there[i];
-        left.push_back(std::move(jump));
+        left.push_back(jump);
       }
       jumps = std::move(left);
     }
