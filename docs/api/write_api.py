@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes docs/api.md from what Doxygen reads in the public headers.
 
-usage: write_api.py XML_DIRECTORY OUTPUT
+usage: write_api.py XML_DIRECTORY OUTPUT DOXYGEN_VERSION
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ HEADERS += ["waiver", "gtest", "autodiff"]
 
 INTRODUCTION = """# plumbline::verify
 
-Made from the headers by `./run api`; what each is for: [verify/README.md](../verify/README.md). Names are in the namespace `plumbline::verify`.
+Made from the headers by `./run api` with Doxygen @VERSION@; what each is for: [verify/README.md](../verify/README.md). Names are in the namespace `plumbline::verify`.
 """
 
 
@@ -176,7 +176,7 @@ def main() -> None:
     entries = entries_by_header(directory)
     order = [h for h in HEADERS if h in entries]
     order += sorted(h for h in entries if h not in order)
-    text = INTRODUCTION
+    text = INTRODUCTION.replace("@VERSION@", sys.argv[3])
     for header in order:
         text += f"\n## {header}.h\n"
         for _, entry in sorted(set(entries[header])):
