@@ -4,14 +4,7 @@
 #
 # -DHOW=… -DSOURCE=tree -DBUILD=its build -DWORK=scratch -DGENERATOR=… -DCOMPILER=… -DLAUNCHER=…
 
-function(step)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
-  if(NOT code EQUAL 0)
-    list(JOIN ARGN " " command)
-    message(FATAL_ERROR "${command}\nended with ${code}:\n${out}")
-  endif()
-  set(out "${out}" PARENT_SCOPE)
-endfunction()
+include("${CMAKE_CURRENT_LIST_DIR}/step.cmake")
 
 file(REMOVE_RECURSE "${WORK}")
 set(settings "-DHOW=${HOW}")

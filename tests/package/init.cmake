@@ -3,13 +3,7 @@
 #
 # -DLANGUAGE=cpp|python -DCOMMAND=plumbline -DBUILD=its build -DWORK=scratch -DGENERATOR=… -DCOMPILER=… -DPYTHON=…
 
-function(step)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
-  if(NOT code EQUAL 0)
-    list(JOIN ARGN " " command)
-    message(FATAL_ERROR "${command}\nended with ${code}:\n${out}")
-  endif()
-endfunction()
+include("${CMAKE_CURRENT_LIST_DIR}/step.cmake")
 
 file(REMOVE_RECURSE "${WORK}")
 step("${COMMAND}" init "${WORK}/project" --language "${LANGUAGE}")

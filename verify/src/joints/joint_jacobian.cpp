@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -11,6 +10,8 @@
 #include "joints/joint_checks.h"
 #include "joints/joint_differences.h"
 #include "pairs/batches.h"
+#include "pairs/seams.h"
+#include "pairs/uniforms.h"
 #include "streams.h"
 #include "text.h"
 
@@ -18,25 +19,8 @@ namespace plumbline::verify {
 
 namespace {
 
-// Differences that do not converge at more than this share of the points prove too little.
-constexpr double kMostJointFolds = 0.9;
-// Failing points that a seam may cause by a coincidence of its differences.
-constexpr double kJointSeamPoints = 2, kJointSeamShare = 0.002;
-// Steps with which a point that fails is looked at again, away from a seam.
-constexpr double kShorterSteps[] = {0x1p-9, 0x1p-13, 0x1p-16};
-
 // A map is flat where its density is proven to be more than that times the pdf, whatever else.
 constexpr double kFlatDensity = 4;
-
-/// Uniform in the middle, and as often close to one end: maps are steep there.
-double draw_number(Random& random) {
-  double u = random.uniform();
-  if (random.uniform() < 0.5) {
-    const double small = std::exp2(-16 * random.uniform() - 1);
-    u = random.uniform() < 0.5 ? small : 1 - small;
-  }
-  return std::clamp(std::round(u * 0x1p20) * 0x1p-20, 0x1p-20, 1 - 0x1p-20);
-}
 
 class JointDifferences {
  public:
@@ -64,9 +48,7 @@ class JointDifferences {
       // Near the ends of all numbers at once a map is rarely smooth: half of the points are not.
       const bool ends = random.uniform() < 0.5;
       for (std::size_t d = 0; d < static_cast<std::size_t>(pair_.numbers); ++d) {
-        u[d] = ends ? draw_number(random)
-                    : std::clamp(std::round(random.uniform() * 0x1p20) * 0x1p-20, 0x1p-20,
-                                 1 - 0x1p-20);
+        u[d] = ends ? draw_for_differences(random) : on_grid_of_differences(random.uniform());
       }
     }
     std::vector<JointUniforms> from;
@@ -85,10 +67,6 @@ class JointDifferences {
   }
 
  private:
-  bool agrees(double pdf, const DensityAt& density) const {
-    return std::abs(pdf / density.value - 1) <= tolerance_ + 4 * density.relative_error;
-  }
-
   void see(const JointUniforms& u, const JointPoint& x, double pdf,
            const std::optional<JointDensity>& density) {
     ++tried_;
@@ -98,7 +76,7 @@ class JointDifferences {
       ++folds_;
       return;
     }
-    const bool right = !flat && agrees(pdf, density->near);
+    const bool right = !flat && agree(pdf, density->near, tolerance_);
     if (!right && agrees_closely(u, pdf)) {
       ++folds_;
       return;
@@ -116,16 +94,13 @@ class JointDifferences {
   }
 
   bool agrees_closely(const JointUniforms& u, double pdf) const {
-    for (const double step : kShorterSteps) {
+    for (const double step : kShortSteps) {
       const auto close = joint_densities_by_differences(pair_, {u}, step).front();
-      if (close && close->near.relative_error <= tolerance_ / 4 && agrees(pdf, close->near))
+      if (close && close->near.relative_error <= tolerance_ / 4 &&
+          agree(pdf, close->near, tolerance_))
         return true;
     }
     return false;
-  }
-
-  bool more_than_seams(double points) const {
-    return points > std::max(kJointSeamPoints, kJointSeamShare * usable_);
   }
 
   void finish() {
@@ -139,8 +114,8 @@ class JointDifferences {
     if (tried_ == 0) {
       r.expected = Verdict::inconclusive;
       r.reason = "the map gave no point of a density";
-    } else if (more_than_seams(failing_)) {
-      outcome_.below_everywhere = !more_than_seams(failing_ - below_);
+    } else if (more_than_seams(failing_, usable_)) {
+      outcome_.below_everywhere = !more_than_seams(failing_ - below_, usable_);
       r.verdict = Verdict::fail;
       r.reason = "pdf · |dx/du| is off by " + number(worst_) + " at " + place(pair_, worst_at_) +
                  ", at " + number(failing_) + " of " + number(usable_) + " points";
@@ -149,7 +124,7 @@ class JointDifferences {
                    number(flat_) + " of " + number(usable_) +
                    " points, as if one of its numbers were used twice or not at all";
       }
-    } else if (folds_ > kMostJointFolds * tried_) {
+    } else if (folds_ > kMostFolds * tried_) {
       // In float that is rounding, which says nothing against the code: skipped, and said so.
       if (pair_.epsilon > 0x1p-40) r.expected = Verdict::inconclusive;
       r.reason =

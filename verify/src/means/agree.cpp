@@ -7,23 +7,6 @@
 
 namespace plumbline::verify {
 
-namespace {
-
-MeanQuestion question_at(const MeanOptions& options, const LookPlan& plan, std::size_t look,
-                         double scale) {
-  MeanQuestion q;
-  q.reference = options.reference;
-  q.tolerance = options.tolerance * scale;
-  q.rounding_allowance = options.rounding_allowance * scale;
-  q.fail_level = plan.fail_level[look];
-  q.pass_level = plan.pass_level[look];
-  q.last_fail_level = plan.fail_level.back();
-  q.max_samples = 2 * plan.samples.back();
-  return q;
-}
-
-}  // namespace
-
 CheckResult check_agreement(const MeanOptions& options, const MomentSampler& a,
                             const MomentSampler& b) {
   if (!(options.tolerance > 0) || !std::isfinite(options.reference)) {
@@ -41,7 +24,7 @@ CheckResult check_agreement(const MeanOptions& options, const MomentSampler& a,
     drawn = plan.samples[look];
     const double scale =
         options.relative ? (std::abs(moments_a.mean()) + std::abs(moments_b.mean())) / 2 : 1.0;
-    result = judge_mean(question_at(options, plan, look, scale),
+    result = judge_mean(agreement_question(options, plan, look, scale),
                         difference(evidence(moments_a), evidence(moments_b)));
     if (result.verdict != Verdict::inconclusive) break;
   }

@@ -70,13 +70,7 @@ class JointAgreement {
   CheckResult judge_one(std::size_t i, std::size_t look) const {
     const std::size_t whole = quantities_[i].whole;
     const double scale = (std::abs(a_[whole].mean()) + std::abs(b_[whole].mean())) / 2;
-    MeanQuestion q;
-    q.tolerance = options_.tolerance * scale;
-    q.rounding_allowance = options_.rounding_allowance * scale;
-    q.fail_level = plan_.fail_level[look];
-    q.pass_level = plan_.pass_level[look];
-    q.last_fail_level = plan_.fail_level.back();
-    q.max_samples = 2 * plan_.samples.back();
+    const MeanQuestion q = agreement_question(options_, plan_, look, scale);
     CheckResult r = judge_mean(q, difference(evidence(a_[i]), evidence(b_[i])));
     r.figures.insert(r.figures.begin(),
                      {{Figure::mean_of_a, a_[i].mean()}, {Figure::mean_of_b, b_[i].mean()}});

@@ -222,6 +222,19 @@ void judge_difference(const MeanQuestion& q, const Evidence& e, const std::strin
 
 }  // namespace
 
+MeanQuestion agreement_question(const MeanOptions& options, const LookPlan& plan, std::size_t look,
+                                double scale) {
+  MeanQuestion q;
+  q.reference = options.reference;
+  q.tolerance = options.tolerance * scale;
+  q.rounding_allowance = options.rounding_allowance * scale;
+  q.fail_level = plan.fail_level[look];
+  q.pass_level = plan.pass_level[look];
+  q.last_fail_level = plan.fail_level.back();
+  q.max_samples = 2 * plan.samples.back();
+  return q;
+}
+
 Interval skewed_interval(double estimate, double error, double skewness, double quantile) {
   const double below = std::max(quantile, hall_inverse(quantile, skewness));
   const double above = std::max(quantile, -hall_inverse(-quantile, skewness));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -24,6 +25,12 @@ struct MeanQuestion {
   double last_fail_level = 0;            ///< two-sided, at the last look
   std::uint64_t max_samples = 0;         ///< at the last look
 };
+
+/// What a look of two estimates against each other asks.
+///
+/// @param scale  that tolerance and rounding allowance are relative to
+MeanQuestion agreement_question(const MeanOptions& options, const LookPlan& plan, std::size_t look,
+                                double scale);
 
 /// estimate ± quantile · error, each end moved outwards where the skewness of the estimate asks for
 /// it (Hall 1992), never inwards.

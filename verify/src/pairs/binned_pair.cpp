@@ -182,7 +182,7 @@ void BinnedPair::measure_rounding(std::uint64_t seed) {
   std::vector<Vec3> points, moved;
   draw_in_batches(pair_, random, kPoints, [&](std::span<const Record> samples) {
     for (const Record& s : samples) {
-      if (s && !(s->mass > 0) && is_finite(s->x)) points.push_back(s->x);
+      if (has_density(s)) points.push_back(s->x);
     }
   });
   for (const Vec3& x : points) {

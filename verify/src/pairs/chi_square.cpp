@@ -257,6 +257,8 @@ void ChiSquareLook::judge(CheckResult& r) const {
   }
 }
 
+namespace {
+
 /// For a person to see where.
 std::vector<Bin> bins_in_detail(const BinnedPair& pair) {
   constexpr int kDepth = 8;
@@ -273,6 +275,8 @@ std::vector<Bin> bins_in_detail(const BinnedPair& pair) {
   }
   return bins;
 }
+
+}  // namespace
 
 CheckResult run_chi_square(const ContractOptions& options, BinnedPair& binned,
                            const RejectedShare& rejected) {

@@ -14,6 +14,7 @@
 #include "pairs/branches.h"
 #include "pairs/differences.h"
 #include "pairs/seams.h"
+#include "pairs/uniforms.h"
 #include "streams.h"
 #include "text.h"
 
@@ -21,28 +22,12 @@ namespace plumbline::verify {
 
 namespace {
 
-// Differences that do not converge at more than this share of the points prove too little: of maps
-// of texels three quarters of the points are at seams, and the others are hundreds.
-constexpr double kMostFolds = 0.9;
-// Failing points that a seam may cause by a coincidence of its differences.
-constexpr double kSeamPoints = 2;
-constexpr double kSeamShare = 0.002;
 // Points at which other branches of the map are looked for, and the share of them that have one in
 // a map that counts as many-to-one.
 constexpr std::size_t kBranchPoints = 200;
 constexpr double kManyToOne = 0.02;
 // Share of the points at which the branches found must add up to the pdf.
 constexpr double kBranchesComplete = 0.9;
-
-/// Uniform in the middle, and as often close to one end: maps are steep there.
-double draw_uniform(Random& random) {
-  double u = random.uniform();
-  if (random.uniform() < 0.5) {
-    const double small = std::exp2(-16 * random.uniform() - 1);
-    u = random.uniform() < 0.5 ? small : 1 - small;
-  }
-  return std::clamp(std::round(u * 0x1p20) * 0x1p-20, 0x1p-20, 1 - 0x1p-20);
-}
 
 class Jacobian {
  public:
@@ -73,7 +58,7 @@ class Jacobian {
     }
     const bool one_map = pair_.lobes.empty() && !pair_.preimages;
     outcome_.below_everywhere =
-        one_map && failing_ > 0 && !more_than_seams(failing_ - failing_below_);
+        one_map && failing_ > 0 && !more_than_seams(failing_ - failing_below_, usable_);
     if (one_map && too_many_fail() && outcome_.below_everywhere) look_for_branches();
     if (one_map && too_many_fail() && !branches_) add_up_branches();
     for (RatioSeries* s : {&of_lobes_, &of_whole_}) {
@@ -95,7 +80,7 @@ class Jacobian {
     std::vector<Uniforms> tried(static_cast<std::size_t>(points));
     for (Uniforms& u : tried) {
       for (int d = 0; d < pair_.numbers; ++d) {
-        u[static_cast<std::size_t>(d)] = draw_uniform(random_);
+        u[static_cast<std::size_t>(d)] = draw_for_differences(random_);
       }
     }
     std::vector<Uniforms> from;
@@ -226,7 +211,7 @@ class Jacobian {
     }
     if (!(several > kManyToOne * looked_at)) return;
     CheckResult& r = outcome_.result;
-    if (beyond > std::max(kSeamPoints, kSeamShare * looked_at)) {
+    if (more_than_seams(beyond, looked_at)) {
       r.reason = "the densities of the branches add up to more than the pdf at " + number(beyond) +
                  " of " + number(looked_at) + " points";
       return;
@@ -302,7 +287,8 @@ class Jacobian {
   std::vector<Record> samples_of(const PairLobe& lobe, std::size_t count) {
     if (lobe.sample) {
       std::vector<Uniforms> u(count);
-      for (Uniforms& numbers : u) numbers = {draw_uniform(random_), draw_uniform(random_), 0};
+      for (Uniforms& numbers : u)
+        numbers = {draw_for_differences(random_), draw_for_differences(random_), 0};
       return ask(lobe.sample, u);
     }
     std::vector<Record> samples(count);
@@ -310,10 +296,7 @@ class Jacobian {
     return samples;
   }
 
-  bool more_than_seams(double points) const {
-    return points > std::max(kSeamPoints, kSeamShare * usable_);
-  }
-  bool too_many_fail() const { return more_than_seams(failing_); }
+  bool too_many_fail() const { return more_than_seams(failing_, usable_); }
 
   void finish() {
     CheckResult& r = outcome_.result;

@@ -1,17 +1,15 @@
 #include "pairs/seams.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 namespace plumbline::verify {
 
-namespace {
-
-// Within a pixel of a map, if not before its edge. Coarse ones may straddle a seam and agree by
-// coincidence.
-constexpr double kShortSteps[] = {0x1p-9, 0x1p-13, 0x1p-16};
-
-}  // namespace
+bool more_than_seams(double points, double of) {
+  constexpr double kSeamPoints = 2, kSeamShare = 0.002;
+  return points > std::max(kSeamPoints, kSeamShare * of);
+}
 
 bool agree(double pdf, const DensityAt& density, double tolerance) {
   return std::abs(pdf / density.value - 1) <= tolerance + 4 * density.relative_error;
