@@ -1,143 +1,239 @@
-#!/usr/bin/env python3
-"""Puts known bugs into a copy of the tree, one at a time, and shows which tests see each.
+#!/usr/bin/python3
+"""Scores the gate: which faults do its tests see, how soon, by which check, and what do they name?
 
-usage: run_mutants.py [--only REGEX] [--label LABEL ...] [--test REGEX]
-                       [--target TARGET ...] [--list]
-
-A mutant that no test notices, or whose text is not found exactly once, is a failure: exit code 1.
-Tests that already fail without mutants are named and see nothing.
+All faults are branches of one build (schemata.py) of a copy of the tree: bugs with a name (named.json) and, where asked
+for, small mechanical faults (mechanical.py) of the renderer and of verify. The results stand in
+build/mutants/results.jsonl, a line for each fault; a run that is repeated goes on where it was.
 """
 
 import argparse
-import collections
-import filecmp
+import concurrent.futures
+import dataclasses
+import hashlib
 import json
 import os
 import pathlib
-import re
-import shutil
+import random
 import subprocess
 import sys
+import threading
+
+import named
+import scoring
+import summary
+import tree
+from schemata import Mutant
 
 HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
-WORK = ROOT / "build" / "mutants"
-PARTS = ["CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "cmake", "docs", "verify", "analytic",
-         "renderer", "reports", "tools", "tests", "bench/scenes"]
+EQUIVALENT = HERE / "equivalent.json"
+PARTS = ("renderer", "verify")
+LABELS = ("unit", "contract", "stability", "corpus", "chi2", "analytic", "variance", "reports", "calibration")
 
 
-def files_of(folder):
-    return {path.relative_to(folder) for part in PARTS
-            for path in [folder / part, *(folder / part).rglob("*")] if path.is_file()}
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--only", help="a fault's name or number; several with commas")
+    parser.add_argument("--list", action="store_true", help="name the faults and stop")
+    parser.add_argument("--check", action="store_true", help="only say whether every named bug still has its place")
+    parser.add_argument("--renderer", type=int, default=0, metavar="N", help="mechanical faults of renderer/")
+    parser.add_argument("--verify", type=int, default=0, metavar="N", help="mechanical faults of verify/")
+    parser.add_argument("--seed", help="for the choice of mechanical faults; the commit's hash unless given")
+    parser.add_argument("--limit", type=float, default=120, help="seconds of tests for one fault")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    return parser.parse_args()
 
 
-def copy_tree():
-    """A copy of the sources under build/. Only what differs is written, so that nothing else is built again; by what
-    stands in it, not by its time: a run that was killed leaves a mutant behind."""
-    source = WORK / "src"
-    wanted = files_of(ROOT)
-    for name in files_of(source) - wanted:
-        (source / name).unlink()
-    for name in wanted:
-        if not (source / name).exists() or not filecmp.cmp(ROOT / name, source / name, shallow=False):
-            (source / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(ROOT / name, source / name)
-    return source
+def commit():
+    return subprocess.run(["git", "rev-parse", "HEAD"], cwd=tree.ROOT, capture_output=True, text=True).stdout.strip()
 
 
-def build(build_folder, targets):
-    return subprocess.run(["cmake", "--build", build_folder, *(["--target", *targets] if targets else [])],
-                          capture_output=True, text=True)
+def named_mutants():
+    result = []
+    for number, bug in enumerate(named.bugs(), 1):
+        for mutant in named.places_of(bug, tree.ROOT):
+            result.append(dataclasses.replace(mutant, number=number))
+    return result
 
 
-def failing_tests(build_folder, arguments, results):
-    """Names of the tests that fail; what their checks say is left in the folder `results`."""
-    shutil.rmtree(results, ignore_errors=True)
-    which = ["-L", "|".join(arguments.label), "-R", arguments.test]
-    run = subprocess.run(["ctest", f"-j{os.cpu_count()}", *which], cwd=build_folder, capture_output=True, text=True,
-                         env={**os.environ, "PLUMBLINE_RESULTS": str(results)})
-    if "No tests were found" in run.stdout + run.stderr:
-        sys.exit(f"no test has a label of {arguments.label} and a name like {arguments.test}")
-    failed = re.findall(r"^\s*\d+ - (.+) \([A-Za-z*]", run.stdout, re.MULTILINE)
-    return {name for name in failed if not name.endswith("_NOT_BUILT")}
+def known_equivalents():
+    if not EQUIVALENT.exists():
+        return set()
+    return {(e["file"], e["fault"]) for e in json.loads(EQUIVALENT.read_text())}
 
 
-def unexpected_checks(results):
-    """Per kind of check: how many gave another verdict than they should, and the quickest of them."""
-    kinds = collections.defaultdict(list)
-    log = results / "checks.jsonl"
-    for line in log.read_text().splitlines() if log.exists() else []:
-        if not line:  # what a log gets where one process looks while another writes
+def mechanical_mutants(arguments, after, taken):
+    """The chosen faults of both parts, none over a named bug's place, none known to change nothing."""
+    import mechanical
+    skip, result = known_equivalents(), []
+    commands = tree.alone(tree.ROOT, tree.PLAIN)
+    for part, count in zip(PARTS, (arguments.renderer, arguments.verify)):
+        if not count:
             continue
-        record = json.loads(line)
-        if record.get("verdict") != record.get("expected"):
-            kinds[record["check"]].append((record["samples"], record["subject"]))
-    return [f"{kind}: {len(found)} checks, the quickest after {min(found)[0]:,} samples: {min(found)[1]}"
-            for kind, found in sorted(kinds.items())]
+        free = [m for m in mechanical.all_candidates(commands, tree.ROOT, [part])
+                if (str(pathlib.Path(m.file).relative_to(tree.ROOT)), m.key()) not in skip
+                and all(m.file != t.file or m.end <= t.start or t.end <= m.start for t in taken)]
+        result += mechanical.choose(free, count, f"{arguments.seed or commit()} {part}", tree.ROOT)
+    return [dataclasses.replace(m, number=after + i) for i, m in enumerate(result, 1)]
 
 
-def try_mutant(mutant, source, build_folder, arguments, known):
-    """The tests that fail with the mutant in place and what their checks say, or what went wrong."""
-    path = source / mutant["file"]
-    original = path.read_text()
-    changed = original
-    for change in mutant.get("changes", [mutant]):
-        found = original.count(change["find"])
-        if found != 1:
-            return [], [f"its text is found {found} times in {mutant['file']}: bring the mutant up to date",
-                        change["find"]]
-        changed = changed.replace(change["find"], change["replace"])
-    try:
-        path.write_text(changed)
-        built = build(build_folder, arguments.target)
-        if built.returncode != 0:
-            return [], ["does not compile:\n" + built.stdout[-2000:]]
-        tests = sorted(failing_tests(build_folder, arguments, WORK / "results") - known)
-        return tests, tests + unexpected_checks(WORK / "results")
-    finally:
-        path.write_text(original)
+def choice_stamp(arguments):
+    """What the choice of faults depends on: the sources, the lists of bugs and equivalents, and what is asked for."""
+    stamp = hashlib.sha256(f"{arguments.renderer} {arguments.verify} {arguments.seed or commit()}".encode())
+    files = [path for part in PARTS for path in (tree.ROOT / part).rglob("*") if path.suffix in (".h", ".cpp")]
+    for path in [*sorted(files), named.LIST, *([EQUIVALENT] if EQUIVALENT.exists() else [])]:
+        stamp.update(path.read_bytes())
+    return stamp.hexdigest()
+
+
+def chosen_faults(arguments):
+    """Those of the last run where nothing has changed since: finding the mechanical ones takes minutes."""
+    kept, stamp = tree.WORK / "chosen.json", choice_stamp(arguments)
+    if kept.exists():
+        data = json.loads(kept.read_text())
+        if data["stamp"] == stamp:
+            return [Mutant(**m) for m in data["faults"]], True
+    chosen = named_mutants()
+    if arguments.renderer or arguments.verify:
+        chosen += mechanical_mutants(arguments, len(named.bugs()), chosen)
+    return chosen, False
+
+
+def prepare(arguments):
+    """The faults that compile; the copy with them is built."""
+    chosen, compiled = chosen_faults(arguments)
+    while True:
+        tree.write_copy(chosen)
+        wrong, output = set(), ""
+        if not compiled and (arguments.renderer or arguments.verify):
+            wrong, output = tree.not_valid(chosen, PARTS)
+        if not wrong:
+            output = tree.build(arguments.jobs)
+            wrong = tree.blamed(output, chosen)
+            if not output:
+                break
+            if not wrong:
+                sys.exit("the copy does not build, and no fault is to blame:\n" + output[-6000:])
+        if any(number <= len(named.bugs()) for number in wrong):
+            sys.exit(f"a named bug does not compile: {sorted(wrong)[0]}\n" + output[-6000:])
+        print(f"{len(wrong)} mechanical faults do not compile and are left out", flush=True)
+        chosen = [m for m in chosen if m.number not in wrong]
+    (tree.WORK / "chosen.json").write_text(json.dumps(
+        {"stamp": choice_stamp(arguments), "faults": [dataclasses.asdict(m) for m in chosen]}))
+    return chosen
+
+
+def learned_tests(mutants, jobs):
+    """The gate's tests with the places they reach, from an earlier run of the same build where there is one."""
+    tests = scoring.tests_of(tree.BUILD, LABELS)
+    stamp = hashlib.sha256(repr([(m.file, m.start, m.key(), m.number) for m in mutants]).encode())
+    for binary in sorted({t.binary for t in tests}):
+        stat = os.stat(binary)
+        stamp.update(f"{binary} {stat.st_size} {stat.st_mtime_ns}".encode())
+    kept = tree.WORK / "learned.json"
+    if kept.exists():
+        data = json.loads(kept.read_text())
+        if data["stamp"] == stamp.hexdigest():
+            return [scoring.Test(**{**t, "reached": bytes.fromhex(t["reached"])}) for t in data["tests"]]
+    print(f"running {len(tests)} tests without a fault", flush=True)
+    tests = scoring.learn(tests, tree.SOURCE, jobs)
+    kept.write_text(json.dumps({"stamp": stamp.hexdigest(), "tests": [
+        {**dataclasses.asdict(t), "reached": t.reached.hex()} for t in tests]}))
+    return tests
+
+
+def describe(mutants, bugs):
+    """What a line of the results says of a fault before it is scored."""
+    first = mutants[0]
+    record = {"number": first.number, "file": str(pathlib.Path(first.file).relative_to(tree.ROOT)), "line": first.line}
+    if first.number <= len(bugs):
+        bug = bugs[first.number - 1]
+        return {**record, "name": bug["id"], "like": bug["like"], "part": bug["part"], "changes": bug["changes"]}
+    return {**record, "fault": first.key()}
+
+
+def score_all(faults, tests, arguments, results):
+    done = {}
+    if results.exists() and results.stat().st_mtime > (tree.WORK / "learned.json").stat().st_mtime:
+        for line in results.read_text().splitlines():
+            record = json.loads(line)
+            done[record["number"]] = record
+    else:
+        results.unlink(missing_ok=True)
+    favoured, lock = {}, threading.Lock()
+
+    def one(fault):
+        record = fault
+        with lock:
+            near = sorted(favoured.get(record["file"], {}).items(), key=lambda item: -item[1])
+        verdict = scoring.score(record["number"], tests, tree.SOURCE, [name for name, _ in near], arguments.limit)
+        if not verdict.killed and pictured[record["number"]]:
+            record = {**record, "pictures_differ": scoring.fingerprint(program, record["number"], tree.SOURCE) != clean}
+        record = {**record, **dataclasses.asdict(verdict)}
+        with lock:
+            if verdict.killed:
+                counts = favoured.setdefault(record["file"], {})
+                counts[verdict.by] = counts.get(verdict.by, 0) + 1
+            with results.open("a") as out:
+                out.write(json.dumps(record, ensure_ascii=False) + "\n")
+            print(line_of(record), flush=True)
+        return record
+
+    program = tree.BUILD / "tests/mutants/mutant_fingerprint"
+    clean, pictured = scoring.fingerprint(program, 0, tree.SOURCE), scoring.run_traced([program], tree.SOURCE)[1]
+    # Named ones first, the others in any order: a run that is cut short has scored a fair sample.
+    open_faults = [f for f in faults if f["number"] not in done]
+    random.Random(0).shuffle(open_faults)
+    open_faults.sort(key=lambda f: "name" not in f)
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        return [done[f["number"]] for f in faults if f["number"] in done] + list(pool.map(one, open_faults))
+
+
+def line_of(record):
+    name = record.get("name") or f'{record["file"].split("/")[-1]}:{record["line"]} {record["fault"][:90]}'
+    if record["killed"]:
+        return f'killed    {record["number"]:4d} {name}  [{record["by"]}, {record["how"]}, {record["seconds"]:.1f} s]'
+    why = "no test reaches it" if not record["tests"] else "" if record["exhausted"] else " (not all tests were run)"
+    same = " pictures are the same" if record.get("pictures_differ") is False else ""
+    return f'SURVIVED  {record["number"]:4d} {name}  [{record["tests"]} tests reach it, {record["seconds"]:.0f} s{same}]{why}'
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--only", help="a regular expression that the ids, or the bugs they are like, must match")
-    parser.add_argument("--label", nargs="*", help="of the tests to run",
-                        default=["unit", "contract", "chi2", "analytic", "variance", "stability"])
-    parser.add_argument("--test", default=".", help="a regular expression that the names of the tests must match")
-    parser.add_argument("--target", nargs="*", default=[], help="tests to build; all unless named")
-    parser.add_argument("--list", action="store_true", help="name the mutants and stop")
-    arguments = parser.parse_args()
-
-    mutants = [m for m in json.loads((HERE / "mutants.json").read_text())
-               if not arguments.only or re.search(arguments.only, m["id"] + " " + m["like"])]
-    if not mutants:
-        sys.exit(f"no mutant matches {arguments.only}")
+    arguments = parse()
+    bugs = named.bugs()
     if arguments.list:
-        for mutant in mutants:
-            print(f"{mutant['id']}  ({mutant['like']})")
+        for number, bug in enumerate(bugs, 1):
+            print(f'{number:4d}  {bug["id"]}  ({bug["like"]})')
         return
-
-    source, build_folder = copy_tree(), WORK / "build"
-    # Warnings are no errors here: a mutant may leave a variable without use.
-    subprocess.run(["cmake", "-S", source, "-B", build_folder, "-G", "Ninja",
-                    "-DCMAKE_BUILD_TYPE=Release", "-DPLUMBLINE_BENCH=OFF"], check=True,
-                   stdout=subprocess.DEVNULL)
-    clean = build(build_folder, arguments.target)
-    if clean.returncode != 0:
-        sys.exit("the tree does not build without mutants:\n" + clean.stdout[-4000:])
-    known = failing_tests(build_folder, arguments, WORK / "results")
-    for name in sorted(known):
-        print(f"fails without a mutant: {name}")
-
-    missed = 0
+    try:
+        mutants = named_mutants()
+    except named.OutOfDate as error:
+        sys.exit(str(error))
+    if arguments.check:
+        print(f"all {len(bugs)} named bugs have their places")
+        return
+    mutants = prepare(arguments)
+    by_number = {}
     for mutant in mutants:
-        caught_by, report = try_mutant(mutant, source, build_folder, arguments, known)
-        missed += not caught_by
-        print(f"{'caught' if caught_by else 'MISSED'}  {mutant['id']}  ({mutant['like']})")
-        for line in report:
-            print(f"        {line}")
-        sys.stdout.flush()
-    sys.exit(1 if missed else 0)
+        by_number.setdefault(mutant.number, []).append(mutant)
+    tests = learned_tests(mutants, arguments.jobs)
+    for test in tests:
+        if not test.passed:
+            print(f"fails without a fault: {test.name}")
+    faults = [describe(group, bugs) for group in by_number.values()]
+    results = tree.WORK / "results.jsonl"
+    if arguments.only:
+        wanted = set(arguments.only.split(","))
+        faults = [f for f in faults if str(f["number"]) in wanted or f.get("name") in wanted]
+        if not faults:
+            sys.exit(f"no fault has the name or number {arguments.only}: --list shows the names")
+        results = tree.WORK / "only.jsonl"
+        results.unlink(missing_ok=True)
+    records = score_all(faults, tests, arguments, results)
+    known = known_equivalents()
+    summary.print_score(records, known)
+    if not arguments.only:
+        summary.write(records, known, tree.ROOT / "build/release/results/mutants.jsonl")
+    sys.exit(1 if any("name" in r and not r["killed"] for r in records) else 0)
 
 
 if __name__ == "__main__":
