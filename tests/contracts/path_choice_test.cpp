@@ -58,13 +58,15 @@ renderer::SceneDescription square_of(const renderer::Bsdf& bsdf) {
 
 /// Share of 51,200 paths of length 2 that had a second ray.
 void expect_share(const std::string& what, const renderer::SceneDescription& description,
-                  const renderer::PathOptions& path, Backend backend, double share) {
+                  const renderer::PathOptions& path, Backend backend, double share,
+                  verify::Verdict expected = verify::Verdict::pass) {
   verify::ProportionOptions claim;
   claim.subject = what + "/" + std::string(name(backend));
   // Counts of 51,200 are known to 0.0023 at most: 0.02 leaves a true claim undecided never, and a
   // share of 0.5 in which 15 % are missing never passes.
   claim.at_least = share - 0.02;
   claim.at_most = share + 0.02;
+  claim.expected = expected;
   claim.seed = check_seed(claim.subject);
   renderer::RenderOptions options;
   options.path = path;
@@ -84,9 +86,29 @@ TEST(RouletteChoice, LetsPathsGoOnByWhatTheyCarryAndGlassCostsThemNothing) {
   for (const Backend backend : renderer::kBackends) {
     expect_share("paths after a grey wall", square_of(renderer::Lambertian{{0.25f, 0.5f, 0.4f}}),
                  path, backend, 0.5);
+    expect_share("control/paths after a grey wall, 15 % more claimed",
+                 square_of(renderer::Lambertian{{0.25f, 0.5f, 0.4f}}), path, backend, 0.575,
+                 verify::Verdict::fail);
     // The refracted path carries 1/1.5² = 0.44 of the radiance, and all of the power.
     expect_share("paths after glass", square_of(renderer::SmoothDielectric{{1.5f}}), path, backend,
                  0.95);
+  }
+}
+
+TEST(RouletteChoice, BeginsAtItsDepthAndNotBefore) {
+  renderer::RenderOptions options;
+  options.path.strategy = renderer::Strategy::bsdf;
+  options.path.max_depth = 2;
+  const renderer::Scene scene =
+      renderer::make_scene(square_of(renderer::Lambertian{{0.5f, 0.5f, 0.5f}}));
+  for (const Backend backend : renderer::kBackends) {
+    options.backend = backend;
+    options.path.rr_depth = 2;  // the first bounce is at depth 1
+    const auto after = render(scene, options).counters;
+    EXPECT_EQ(after.bounce_rays, after.camera_rays);
+    options.path.rr_depth = 1;
+    const auto from = render(scene, options).counters;
+    EXPECT_LT(from.bounce_rays, from.camera_rays);
   }
 }
 
