@@ -59,49 +59,70 @@ void expect_law(const std::string& subject, const std::function<double(std::uint
   }));
 }
 
-/// A floor under a lamp without size, seen from above: radiance is a smooth function of the place
-/// in the image, and of no other random number.
-class LampOverFloor {
- public:
-  static constexpr int kWidth = 4, kHeight = 4, kPixels = kWidth * kHeight;
-
-  LampOverFloor() : scene_(renderer::make_scene(description())) {
-    for (std::size_t pixel = 0; pixel < kPixels; ++pixel) {
-      laws_.emplace_back([&](double x, double y) { return radiance(pixel, x, y); });
-    }
-  }
-
-  const renderer::Scene& scene() const { return scene_; }
-  const NetLaw& law(std::size_t pixel) const { return laws_[pixel]; }
-
-  /// albedo/π · I cosθ/d² = albedo/π · I h/d³ at the place (x, y) of a pixel.
-  static double radiance(std::size_t pixel, double x, double y) {
-    const auto column = static_cast<double>(pixel % kWidth);
-    const auto row = static_cast<double>(pixel / kWidth);
-    const double across = 2 * (column + x) / kWidth - 1 - kLampX;
-    const double up = 1 - 2 * (row + y) / kHeight - kLampY;
-    const double square = across * across + up * up + kLampZ * kLampZ;
-    return 0.5 * kLampZ / (square * std::sqrt(square));
-  }
-
- private:
-  static constexpr double kLampX = 0.3, kLampY = -0.2, kLampZ = 0.6;  // [m]
-
-  /// The image is the floor from −1 to 1 m; left in it is −x, down −y.
-  static renderer::SceneDescription description() {
-    renderer::SceneDescription scene = empty_scene(kWidth, kHeight);
-    scene.camera.origin = {0, 0, 1};
-    scene.camera.forward = {0, 0, -1};
-    scene.shapes.push_back(
-        {renderer::RectangleShape{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, false}, 0, {}, false, false});
-    const double intensity = renderer::pi<double>();
-    scene.points.push_back({{kLampX, kLampY, kLampZ}, {intensity, intensity, intensity}});
-    return scene;
-  }
-
-  renderer::Scene scene_;
-  std::vector<NetLaw> laws_;
+/// A scene, and what nets of each of its pixels must vary by.
+struct KnownImage {
+  renderer::Scene scene;
+  std::vector<NetLaw> laws;  ///< by pixel
 };
+
+constexpr int kSide = 4;  // of the images [pixels]
+constexpr std::size_t kPixels = kSide * kSide;
+
+/// The floor z = 0, with the camera 1 m above the origin.
+///
+/// @param half_width  that the image shows [m]; left in it is −x, down −y
+renderer::SceneDescription floor_from_above(double half_width) {
+  renderer::SceneDescription scene = empty_scene(kSide, kSide);
+  scene.camera.origin = {0, 0, 1};
+  scene.camera.forward = {0, 0, -1};
+  scene.camera.tan_half_fov_x = half_width;
+  scene.shapes.push_back(
+      {renderer::RectangleShape{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, false}, 0, {}, false, false});
+  return scene;
+}
+
+const renderer::Vec3d kLamp{0.3, -0.2, 0.6};  // [m]
+
+/// Under a lamp without size: albedo/π · I cosθ/d² = albedo/π · I h/d³ at the place (x, y) of a
+/// pixel.
+double under_lamp(std::size_t pixel, double x, double y) {
+  const auto column = static_cast<double>(pixel % kSide);
+  const auto row = static_cast<double>(pixel / kSide);
+  const double across = 2 * (column + x) / kSide - 1, up = 1 - 2 * (row + y) / kSide;
+  const double square = length_squared(kLamp - renderer::Vec3d{across, up, 0});
+  return 0.5 * kLamp.z / (square * std::sqrt(square));
+}
+
+/// Radiance is a smooth function of the place in the image, and of no other random number.
+KnownImage lamp_over_floor() {
+  renderer::SceneDescription scene = floor_from_above(1);
+  const double intensity = renderer::pi<double>();
+  scene.points.push_back({kLamp, {intensity, intensity, intensity}});
+  KnownImage image{renderer::make_scene(scene), {}};
+  for (std::size_t pixel = 0; pixel < kPixels; ++pixel) {
+    image.laws.emplace_back([&](double x, double y) { return under_lamp(pixel, x, y); });
+  }
+  return image;
+}
+
+/// Two windows of 1 m² above the floor, of which every sample is on one: all pixels see one spot,
+/// and radiance is a function of the second pair of numbers. Each half of the first number, spread
+/// out again, is a number on one window.
+KnownImage windows_over_floor() {
+  const std::array<renderer::Vec3d, 2> corners{{{0.5, -0.5, 1.2}, {-1.6, -0.3, 0.8}}};
+  renderer::SceneDescription scene = floor_from_above(1e-5);
+  for (const renderer::Vec3d& corner : corners) {
+    scene.shapes.push_back({renderer::RectangleShape{corner, {1, 0, 0}, {0, 1, 0}, true}, 0,
+                            renderer::Rgbd{1, 1, 1}, false, false});
+  }
+  // albedo/π · cosθ cosθ_light/d² over the density, half a window.
+  const NetLaw law([&](double x, double y) {
+    const renderer::Vec3d& corner = corners[x < 0.5 ? 0 : 1];
+    const renderer::Vec3d point = corner + renderer::Vec3d{2 * x - (x < 0.5 ? 0 : 1), y, 0};
+    return 2 * 0.5 / renderer::pi<double>() * renderer::sqr(point.z / length_squared(point));
+  });
+  return {renderer::make_scene(scene), std::vector<NetLaw>(kPixels, law)};
+}
 
 struct Dealing {
   std::size_t log_points;  ///< of a replicate
@@ -112,8 +133,8 @@ struct Dealing {
 /// Pixels of images with consecutive seeds, over what their nets must vary by.
 class DealtPixels {
  public:
-  DealtPixels(const LampOverFloor& lamp, const Dealing& dealing, std::uint64_t seed)
-      : lamp_(lamp), dealing_(dealing), seed_(seed) {}
+  DealtPixels(const KnownImage& image, const Dealing& dealing, std::uint64_t seed)
+      : image_(image), dealing_(dealing), seed_(seed) {}
 
   /// The variance that a pixel states of its replicates; NaN, which fails, where some are missing.
   double stated(std::uint64_t i) {
@@ -131,7 +152,7 @@ class DealtPixels {
 
  private:
   double points() const { return std::ldexp(1.0, static_cast<int>(dealing_.log_points)); }
-  const NetLaw& law_of(std::uint64_t i) const { return lamp_.law(i % LampOverFloor::kPixels); }
+  const NetLaw& law_of(std::uint64_t i) const { return image_.laws[i % kPixels]; }
 
   const renderer::PixelMoments& pixel_at(std::uint64_t i) {
     while (pixels_.size() <= i) {
@@ -144,30 +165,40 @@ class DealtPixels {
       options.seed = seed_ + pixels_.size();
       options.threads = 2;
       options.backend = dealing_.backend;
-      const renderer::Film film = render(lamp_.scene(), options).film;
+      const renderer::Film film = render(image_.scene, options).film;
       pixels_.insert(pixels_.end(), film.pixels().begin(), film.pixels().end());
     }
     return pixels_[i];
   }
 
-  const LampOverFloor& lamp_;
+  const KnownImage& image_;
   Dealing dealing_;
   std::uint64_t seed_;
   std::vector<renderer::PixelMoments> pixels_;
 };
 
+void expect_law_of_nets(const std::string& what, const KnownImage& image, const Dealing& dealing) {
+  std::string subject = what + "/" + std::to_string(dealing.replicates) + " of ";
+  subject.append(std::to_string(1u << dealing.log_points)).append(" points/");
+  subject.append(name(dealing.backend));
+  DealtPixels pixels(image, dealing, check_seed(subject));
+  expect_law(subject + "/between replicates", [&](std::uint64_t i) { return pixels.stated(i); });
+  expect_law(subject + "/squared error", [&](std::uint64_t i) { return pixels.seen(i); });
+}
+
 TEST(RenderedNets, ReplicatesAndTheirMeanVaryAsNestedScramblingSays) {
-  const LampOverFloor lamp;
+  const KnownImage image = lamp_over_floor();
   for (const Dealing& dealing :
        {Dealing{4, 4, Backend::batched}, Dealing{6, 3, Backend::scalar},
         Dealing{8, 4, Backend::batched}, Dealing{10, 2, Backend::batched}}) {
-    std::string subject = "rendered nets/";
-    subject.append(std::to_string(dealing.replicates)).append(" of ");
-    subject.append(std::to_string(1u << dealing.log_points)).append(" points/");
-    subject.append(name(dealing.backend));
-    DealtPixels pixels(lamp, dealing, check_seed(subject));
-    expect_law(subject + "/between replicates", [&](std::uint64_t i) { return pixels.stated(i); });
-    expect_law(subject + "/squared error", [&](std::uint64_t i) { return pixels.seen(i); });
+    expect_law_of_nets("rendered nets", image, dealing);
+  }
+}
+
+TEST(RenderedNets, EachOfTwoLightsGetsANetOfItsOwn) {
+  const KnownImage image = windows_over_floor();
+  for (const Dealing& dealing : {Dealing{4, 3, Backend::scalar}, Dealing{8, 2, Backend::batched}}) {
+    expect_law_of_nets("nets on two lights", image, dealing);
   }
 }
 
@@ -217,14 +248,14 @@ class NetByTheBook {
 double squared_error_by_the_book(std::size_t m, std::size_t log_stride, std::uint64_t seed,
                                  std::uint64_t i) {
   constexpr std::size_t kPixel = 6;
-  static const NetLaw law([](double x, double y) { return LampOverFloor::radiance(kPixel, x, y); });
+  static const NetLaw law([](double x, double y) { return under_lamp(kPixel, x, y); });
   verify::Random random(seed, i);
   NetByTheBook net(m + log_stride, random);
   double sum = 0;
   const std::size_t points = std::size_t{1} << m;
   for (std::size_t k = 0; k < points; ++k) {
     const auto p = net.point(k << log_stride);
-    sum += LampOverFloor::radiance(kPixel, p[0], p[1]);
+    sum += under_lamp(kPixel, p[0], p[1]);
   }
   const auto n = static_cast<double>(points);
   const double error = sum / n - law.mean();
