@@ -25,9 +25,13 @@ def find_once(text, part, where):
 
 
 def is_in_constexpr(text, start):
-    """Whether a place is in the body of the last function before it that says constexpr: a brace is still open."""
-    head = text[:start].rfind("constexpr")
-    return head >= 0 and text.count("{", head, start) > text.count("}", head, start)
+    """Whether a place is in the body of the last function before it that says constexpr."""
+    head, depth = text[:start].rfind("constexpr"), 0
+    for sign in text[head:start] if head >= 0 else "":
+        depth += (sign == "{") - (sign == "}")
+        if sign == "}" and depth == 0:
+            return False
+    return depth > 0
 
 
 def places_of(bug, root):
