@@ -80,17 +80,18 @@ TEST(NegativeControl, ADensityWithoutMaskingFailsTheChiSquareCheck) {
 }
 
 TEST(ChiSquareOfFloats, OfTheLambertianAlongTheNormalAndNextToTheHorizon) {
-  const Example grey = examples_of<Lambertian>().front();
+  const Example diffuse = examples_of<Lambertian>().front();
   for (const double degrees : {0.0, 84.0}) {
-    const std::string name = grey.name + "/" + std::to_string(static_cast<int>(degrees)) + "/float";
+    const std::string name =
+        diffuse.name + "/" + std::to_string(static_cast<int>(degrees)) + "/float";
     expect_verdict(
-        check(name, as_rendered(grey.bsdf), direction_at(degrees, 0.1), options_for(name, 1)));
+        check(name, as_rendered(diffuse.bsdf), direction_at(degrees, 0.1), options_for(name, 1)));
   }
 }
 
 TEST(NegativeControl, ALambertianDensityWithoutOneOverPiFails) {
-  const Example grey = examples_of<Lambertian>().front();
-  verify::ErasedBsdf bsdf = as_rendered(grey.bsdf);
+  const Example diffuse = examples_of<Lambertian>().front();
+  verify::ErasedBsdf bsdf = as_rendered(diffuse.bsdf);
   bsdf.pdf = [right = bsdf.pdf](const verify::Vec3& wo, const verify::Vec3& wi) {
     return right(wo, wi) * std::numbers::pi;
   };

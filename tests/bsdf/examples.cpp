@@ -42,11 +42,11 @@ struct EtaOf {
 double eta_of(const BsdfSet& set, std::uint32_t index) { return EtaOf{set}.of(index); }
 
 Sets ExamplesOf<Lambertian>::sets() {
-  return {{"grey", {Lambertian{{0.5f, 0.2f, 0.8f}}}, kDensityInFront}};
+  return {{"coloured", {Lambertian{{0.5f, 0.2f, 0.8f}}}, kDensityInFront}};
 }
 
 Sets ExamplesOf<ModifiedPhong>::sets() {
-  return {{"n 1", {ModifiedPhong{kWhite, 1}}, kDensityInFront},
+  return {{"n 1", {ModifiedPhong{{0.2f, 0.6f, 1}, 1}}, kDensityInFront},
           {"n 20", {ModifiedPhong{{0.9f, 0.5f, 0.1f}, 20}}, kDensityInFront},
           {"n 1000", {ModifiedPhong{kWhite, 1000}}, kDensityInFront},
           {"n 1e6", {ModifiedPhong{kWhite, 1e6f}}, kDensityInFront}};
@@ -84,7 +84,7 @@ Sets ExamplesOf<SmoothDielectric>::sets() {
 
 Sets ExamplesOf<ClearCoat>::sets() {
   return {{"eta 1.5 alpha 0.1", {ClearCoat(1.5f, 0.1f, {0.8f, 0.3f, 0.1f})}, kDensityInFront},
-          {"eta 1.5 alpha 1e-4", {ClearCoat(1.5f, 1e-4f, {0.5f, 0.5f, 0.5f})}, kDensityInFront},
+          {"eta 1.5 alpha 1e-4", {ClearCoat(1.5f, 1e-4f, {0, 0.5f, 0.9f})}, kDensityInFront},
           {"eta 2.5 alpha 0.5 white", {ClearCoat(2.5f, 0.5f, kWhite)}, kDensityInFront},
           {"eta 1.3 alpha 1 black", {ClearCoat(1.3f, 1, {0, 0, 0})}, kDensityInFront}};
 }
@@ -107,34 +107,34 @@ Sets ExamplesOf<ThinFilm>::sets() {
 }
 
 Sets ExamplesOf<TwoSided>::sets() {
-  const Bsdf grey = Lambertian{{0.5f, 0.5f, 0.5f}};
+  const Bsdf diffuse = Lambertian{{0.7f, 0.5f, 0.2f}};
   const Bsdf metal = GgxConductor{{0.1f, 0.3f}, copper()};
   const Bsdf mirror = SmoothConductor{kNoLoss};
-  const Bsdf phong = ModifiedPhong{kWhite, 50};
+  const Bsdf phong = ModifiedPhong{{0.4f, 0.9f, 1}, 50};
   return {{"rough copper", {metal, TwoSided{0, 0}}, kDensity},
-          {"diffuse, phong behind", {grey, phong, TwoSided{0, 1}}, kDensity},
+          {"diffuse, phong behind", {diffuse, phong, TwoSided{0, 1}}, kDensity},
           {"coat, mirror behind",
-           {ClearCoat(1.5f, 0.2f, {0.5f, 0.5f, 0.5f}), mirror, TwoSided{0, 1}},
+           {ClearCoat(1.5f, 0.2f, {0.3f, 0.5f, 0.8f}), mirror, TwoSided{0, 1}},
            {Gives::density, Gives::atoms}}};
 }
 
 Sets ExamplesOf<Mixture>::sets() {
-  const Bsdf grey = Lambertian{{0.5f, 0.5f, 0.5f}};
+  const Bsdf diffuse = Lambertian{{0.7f, 0.5f, 0.2f}};
   const Bsdf metal = GgxConductor{{0.05f, 0.05f}, gold()};
   const Bsdf mirror = SmoothConductor{kNoLoss};
   const Bsdf glass = GgxDielectric{{0.2f, 0.2f}, {1.5f}};
   const Bsdf clear = SmoothDielectric{{1.5f}};
   return {
-      {"diffuse and rough gold", {grey, metal, Mixture{0, 1, 0.3f}}, kDensityInFront},
-      {"diffuse and mirror", {grey, mirror, Mixture{0, 1, 0.5f}}, {Gives::both, Gives::nothing}},
+      {"diffuse and rough gold", {diffuse, metal, Mixture{0, 1, 0.3f}}, kDensityInFront},
+      {"diffuse and mirror", {diffuse, mirror, Mixture{0, 1, 0.5f}}, {Gives::both, Gives::nothing}},
       {"mixture in mixture",
-       {grey, metal, Mixture{0, 1, 0.4f}, mirror, Mixture{2, 3, 0.2f}},
+       {diffuse, metal, Mixture{0, 1, 0.4f}, mirror, Mixture{2, 3, 0.2f}},
        {Gives::both, Gives::nothing}},
       {"rough and clear glass", {glass, clear, Mixture{0, 1, 0.25f}}, {Gives::both, Gives::both}},
       {"two-sided mixture",
-       {grey, metal, Mixture{0, 1, 0.9f}, TwoSided{2, 0}, Mixture{3, 3, 0.5f}},
+       {diffuse, metal, Mixture{0, 1, 0.9f}, TwoSided{2, 0}, Mixture{3, 3, 0.5f}},
        kDensity},
-      {"nearly all of the second", {grey, metal, Mixture{0, 1, 0.999f}}, kDensityInFront}};
+      {"nearly all of the second", {diffuse, metal, Mixture{0, 1, 0.999f}}, kDensityInFront}};
 }
 
 }  // namespace plumbline::tests

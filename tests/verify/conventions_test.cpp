@@ -188,6 +188,31 @@ TEST(Conventions, GlassMayLackEtaSquaredIfItSaysSo) {
   }
 }
 
+/// A mirror of another reflectance in each channel.
+ErasedBsdf coloured_mirror() {
+  ErasedBsdf b = half_mirror(1, false);
+  b.sample = [](const Vec3& wo, const Uniforms&) {
+    SampleRecord record{{-wo[0], -wo[1], wo[2]}, gray(0), std::nullopt, 1};
+    record.weight.value = {0.9, 0.5, 0.2};
+    record.weight.count = 3;
+    return std::optional(record);
+  };
+  return b;
+}
+
+TEST(Energy, IsHeldInTheChannelThatTheKnownAlbedoIsOf) {
+  BsdfOptions options = options_with("coloured", {});
+  options.albedo = [](const Vec3&) { return 0.2; };
+  for (const std::size_t channel : {0u, 1u, 2u}) {
+    options.albedo_channel = channel;
+    EXPECT_EQ(check_energy("mirror", coloured_mirror(), unit({0.3, 0.4, 0.8}), options).verdict,
+              channel == 2 ? Verdict::pass : Verdict::fail);
+  }
+  options.albedo_channel = Channels::kMost;
+  EXPECT_THROW(check_energy("mirror", coloured_mirror(), unit({0.3, 0.4, 0.8}), options),
+               std::invalid_argument);
+}
+
 /// A white fibre along z that scatters evenly in azimuth and by the cosine along itself: f = 1/π²,
 /// ∫ f·cosθ dω = 1/π² ∫ cos²θ dθ dφ = 1. Angles θ from the plane across: dω = cosθ dθ dφ.
 struct Fibre {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -68,10 +69,15 @@ AlbedoAt albedo_seen(const CheckResult& energy, const Vec3& wo, const BsdfOption
 
 CheckResult check_energy(const std::string& name, const ErasedBsdf& bsdf, const Vec3& wo,
                          const BsdfOptions& options) {
+  if (options.albedo_channel >= Channels::kMost) {
+    throw std::invalid_argument("albedo_channel must be less than " +
+                                std::to_string(Channels::kMost));
+  }
   const Stopwatch watch;
   const SamplingPair pair = bsdf_pair(name, bsdf, wo, options);
   const std::uint64_t seed = options.contract.seed;
-  const std::size_t channel = options.albedo ? 0 : brightest_channel(pair, seed);
+  const std::size_t channel =
+      options.albedo ? options.albedo_channel : brightest_channel(pair, seed);
   const auto value = [&](std::span<const Vec3> wi, std::span<double> out) {
     std::vector<Channels> of(wi.size());
     pair.value(wi, of);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -37,8 +38,9 @@ struct BsdfOptions {
   bool conserves_energy = true;    ///< albedo ≤ 1 for every wo and channel
   double energy_tolerance = 1e-3;  ///< of the albedo: what the cubature is asked for
 
-  /// Known directional albedo of the first channel, atoms included; empty if unknown.
+  /// Known directional albedo of one channel, atoms included; empty if unknown.
   std::function<double(const Vec3& wo)> albedo;
+  std::size_t albedo_channel = 0;  ///< the channel that `albedo` is of
 
   std::vector<BsdfSuspect> suspects;
 };
