@@ -1,5 +1,6 @@
 #include "scenes.h"
 
+#include <map>
 #include <utility>
 
 #include <plumbline/analytic/known_scene.h>
@@ -10,6 +11,20 @@
 #include "made_scenes.h"
 
 namespace plumbline::bench {
+namespace {
+
+/// The values under which a known scene is grey; none for other scenes.
+std::map<std::string, std::string> grey_parameters(const std::string& name) {
+  std::map<std::string, std::string> parameters;
+  if (const analytic::KnownScene* known = analytic::find_known_scene(name)) {
+    for (const auto& [parameter, value] : in_grey(*known)) {
+      parameters.emplace(parameter, to_text(value));
+    }
+  }
+  return parameters;
+}
+
+}  // namespace
 
 std::filesystem::path scene_path(const std::string& name) {
   if (analytic::find_known_scene(name) != nullptr) return analytic::scene_file(name);
@@ -21,7 +36,7 @@ std::filesystem::path scene_path(const std::string& name) {
 renderer::SceneDescription load_at_size(const std::string& name, int width, int height) {
   auto made = made_scene(name);
   renderer::SceneDescription description =
-      made ? std::move(*made) : renderer::load_scene(scene_path(name));
+      made ? std::move(*made) : renderer::load_scene(scene_path(name), grey_parameters(name));
   description.camera.width = width;
   description.camera.height = height;
   return description;
@@ -32,8 +47,12 @@ std::vector<double> reference_luminance(const std::string& name,
                                         std::uint32_t reference_spp) {
   const renderer::CameraDescription& camera = description.camera;
   if (const analytic::KnownScene* known = analytic::find_known_scene(name)) {
-    return analytic::make_oracle(*known, {}, analytic::FilmSize{camera.width, camera.height})
-        ->image();
+    std::vector<double> grey;
+    const analytic::FilmSize film{camera.width, camera.height};
+    for (const analytic::Colour& pixel : make_oracle(*known, in_grey(*known), film)->image()) {
+      grey.push_back(pixel.g);
+    }
+    return grey;
   }
   renderer::RenderOptions options;
   options.path.max_depth = description.integrator.max_depth;

@@ -24,7 +24,8 @@ inline constexpr NamedScene kTracedScenes[] = {{"cornell", "Cornell box"},
 std::filesystem::path scene_path(const std::string& name);
 
 /// The scene at another resolution, with square pixels as before: one of made_scene() or from a
-/// file.
+/// file. Scenes with known answers are in grey: figures of luminance from before they had colours
+/// stay comparable.
 renderer::SceneDescription load_at_size(const std::string& name, int width, int height);
 
 /// Luminance of the exact image, or of a render with `reference_spp` samples per pixel where no

@@ -27,7 +27,8 @@ struct Topic {
 std::string parameters_of(const analytic::KnownScene& scene) {
   std::string text;
   for (const analytic::Parameter& parameter : scene.parameters) {
-    text += fmt::format("\n    -D {}={}  {}", parameter.name, parameter.value, parameter.meaning);
+    text += fmt::format("\n    -D {}={}  {}", parameter.name, to_text(parameter.value),
+                        parameter.meaning);
   }
   return text;
 }

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
+#include <vector>
 
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/scene_file/nearest_name.h>
@@ -16,6 +18,24 @@ std::string hint_for(const std::string& name) {
   std::vector<std::string> known;
   for (const analytic::KnownScene& scene : analytic::known_scenes()) known.emplace_back(scene.name);
   return renderer::name_hint(name, known);
+}
+
+/// The numbers of a list with commas or spaces between them, as in scene files; none where anything
+/// else stands in it.
+std::vector<double> finite_numbers(const std::string& text) {
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  const auto is_separator = [](char c) { return c == ',' || c == ' '; };
+  while (at != end) {
+    double value = 0;
+    const auto parsed = std::from_chars(at, end, value);
+    if (parsed.ec != std::errc() || !std::isfinite(value)) return {};
+    numbers.push_back(value);
+    at = std::find_if_not(parsed.ptr, end, is_separator);
+    if (at == parsed.ptr && at != end) return {};
+  }
+  return numbers;
 }
 
 }  // namespace
@@ -55,14 +75,15 @@ std::map<std::string, std::string> parse_definitions(const std::vector<std::stri
 analytic::ParameterValues numeric_values(const std::map<std::string, std::string>& parameters) {
   analytic::ParameterValues values;
   for (const auto& [name, text] : parameters) {
-    double value = 0;
-    const char* end = text.data() + text.size();
-    const auto parsed = std::from_chars(text.data(), end, value);
-    if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) {
-      throw renderer::InputError(
-          fmt::format("parameter {}={}: the closed form needs one finite number", name, text));
+    const auto numbers = finite_numbers(text);
+    if (numbers.size() == 1) {
+      values.emplace(name, numbers[0]);
+    } else if (numbers.size() == 3) {
+      values.emplace(name, analytic::Colour(numbers[0], numbers[1], numbers[2]));
+    } else {
+      throw renderer::InputError(fmt::format(
+          "parameter {}={}: the closed form needs one finite number, or three", name, text));
     }
-    values.emplace(name, value);
   }
   return values;
 }

@@ -23,9 +23,9 @@ const analytic::KnownScene& known_scene(const std::string& name);
 /// @throws renderer::InputError for a text without "=", and for a name that is given twice
 std::map<std::string, std::string> parse_definitions(const std::vector<std::string>& definitions);
 
-/// Parameters of a closed form, which are numbers.
+/// Parameters of a closed form: one finite number each, or three for a colour.
 ///
-/// @throws renderer::InputError for a value that is not a finite number
+/// @throws renderer::InputError for any other value
 analytic::ParameterValues numeric_values(const std::map<std::string, std::string>& parameters);
 
 }  // namespace plumbline::tools

@@ -16,7 +16,7 @@
 namespace plumbline::analytic {
 namespace {
 
-using Albedo = std::function<double(double cosine)>;
+using Albedo = std::function<Colour(double cosine)>;
 
 /// A smooth function of a cosine, tabulated: barycentric interpolation at Chebyshev's points.
 class CosineTable {
@@ -31,37 +31,40 @@ class CosineTable {
     // Between the points, where interpolation is at its worst.
     for (std::size_t k = 1; k < kPoints; k += 3) {
       const double x = 0.5 * (x_[k - 1] + x_[k]);
-      error_ = std::max(error_, std::abs((*this)(x) / f(x) - 1));
+      const Colour off = (*this)(x)-f(x), exact = f(x);
+      error_ = std::max({error_, std::abs(off.r) / exact.r, std::abs(off.g) / exact.g,
+                         std::abs(off.b) / exact.b});
     }
   }
 
-  double operator()(double x) const {
-    double above = 0, below = 0;
+  Colour operator()(double x) const {
+    Colour above;
+    double below = 0;
     for (std::size_t k = 0; k < kPoints; ++k) {
       if (x == x_[k]) return f_[k];
       const double w = weight_[k] / (x - x_[k]);
-      above += w * f_[k];
+      above = above + w * f_[k];
       below += w;
     }
     return above / below;
   }
 
   double low() const { return low_; }
-  double error() const { return error_; }  ///< relative, seen between the points
+  double error() const { return error_; }  ///< relative, the largest seen between the points
 
  private:
   static constexpr std::size_t kPoints = 18;
 
   double low_, error_ = 0;
-  std::array<double, kPoints> x_{}, weight_{}, f_{};
+  std::array<double, kPoints> x_{}, weight_{};
+  std::array<Colour, kPoints> f_{};
 };
 
 constexpr double kQuadratureError = 3e-6;  // relative, of the albedos
 
 /// No point of a plane sees another, so L = albedo(θ) Le.
 std::unique_ptr<PixelOracle> plane_furnace(const OracleInput& input, const Albedo& albedo) {
-  const double radiance = parameter(input, "radiance");
-  require(radiance >= 0 && radiance < 1e300, "radiance must be finite and not negative");
+  const Colour radiance = emitted(input, "radiance");
   if (input.max_depth == 0 || input.max_depth == 1) return uniform_oracle(input.camera.film, 0);
   double lowest = 1;
   const double w = input.camera.film.width, h = input.camera.film.height;
@@ -77,13 +80,24 @@ std::unique_ptr<PixelOracle> plane_furnace(const OracleInput& input, const Albed
 }
 
 constexpr double kAlpha = 0.5, kGlass = 1.5, kExponent = 20;
-const Index kMetal{0.2, 3.9};
 
 Vec3 at_cosine(double cosine) { return {std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine}; }
 
-double metal(double cosine) {
+/// Reflectance of the metal of index eta + ik, in each channel, from what f gives of one.
+template <class F>
+Albedo of_metal(const OracleInput& input, const F& f) {
+  return [f, eta = colour(input, "eta"), k = colour(input, "k")](double cosine) {
+    return by_channel([&](double n, double kappa) { return f(cosine, Index{n, kappa}); }, eta, k);
+  };
+}
+
+double rough_metal(double cosine, const Index& metal) {
   return ggx_reflection_albedo({kAlpha, kAlpha}, at_cosine(cosine),
-                               [](double c) { return interface_reflectance(c, 1, kMetal); });
+                               [&](double c) { return interface_reflectance(c, 1, metal); });
+}
+
+double smooth_metal(double cosine, const Index& metal) {
+  return interface_reflectance(cosine, 1, metal);
 }
 
 /// What it lets through is 1/η² of the radiance below, which is Le too.
@@ -100,61 +114,91 @@ constexpr std::string_view kBlind =
     "half of each technique: light that only a mirror's or a glass's own direction finds counts "
     "half";
 
+/// @param own  the parameters of the floor
 KnownScene furnace(std::string_view name, std::string_view answer, bool atoms,
+                   const std::vector<Parameter>& own,
                    std::unique_ptr<PixelOracle> (*make)(const OracleInput&)) {
   KnownScene scene = floor_scene(name, answer, make);
   scene.view = {{0, 0, 1}, {1.2, 0.1, 0}, {0, 0, 1}, 50};
-  scene.parameters = {{"radiance", 1, "Le of the environment [W/(m² sr)], not negative"}};
+  scene.parameters = {
+      {"radiance", {0.8, 1, 1.5}, "Le of the environment [rgb, W/(m² sr)], not negative"}};
+  scene.parameters.insert(scene.parameters.end(), own.begin(), own.end());
   if (atoms) {
     scene.expectations = expect_pass_but_for({{Strategy::average, Expected::fail, kBlind}});
   }
   return scene;
 }
 
+std::vector<Parameter> diffuse_base(const Colour& albedo) {
+  return {{"albedo", albedo, "reflectance of the diffuse part [rgb], 0 to 1"}};
+}
+
+std::vector<Parameter> phong_lobe() {
+  return {{"albedo", {0.8, 1, 0.5}, "reflectance of the lobe [rgb], 0 to 1"}};
+}
+
+/// Its channels differ as much as copper's do.
+std::vector<Parameter> metal() {
+  return {{"eta", {0.1, 0.2, 1.2}, "index of the metal [rgb], not negative"},
+          {"k", {4.5, 3.9, 2.4}, "its extinction [rgb], not negative"}};
+}
+
+std::unique_ptr<PixelOracle> make_phong_furnace(const OracleInput& input) {
+  return plane_furnace(input, [albedo = reflectance(input, "albedo")](double c) {
+    return albedo * phong_albedo(kExponent, c);
+  });
+}
+
+std::unique_ptr<PixelOracle> make_coat_furnace(const OracleInput& input) {
+  return plane_furnace(input, [albedo = reflectance(input, "albedo")](double c) {
+    const double coat = clear_coat_albedo(kGlass, kAlpha, 0, c);
+    return coat + albedo * (1 - coat);
+  });
+}
+
 std::vector<KnownScene> floors() {
   return {
+      furnace("furnace_coat",
+              "L = Le * (E + albedo * (1 - E)), E(theta) what a rough coat reflects over a diffuse "
+              "base",
+              false, diffuse_base({0.7, 0.5, 0.25}), make_coat_furnace),
       furnace("furnace_phong", "L = Le * albedo(theta) of a modified Phong lobe, n = 20", false,
-              [](const OracleInput& input) {
-                return plane_furnace(input, [](double c) { return phong_albedo(kExponent, c); });
-              }),
+              phong_lobe(), make_phong_furnace),
       furnace("furnace_two_sided",
               "L = Le * albedo(theta) of the Phong lobe on the back of a floor, diffuse in front",
-              false,
-              [](const OracleInput& input) {
-                return plane_furnace(input, [](double c) { return phong_albedo(kExponent, c); });
-              }),
+              false, phong_lobe(), make_phong_furnace),
       furnace("furnace_metal",
               "L = Le * albedo(theta) of rough metal, GGX alpha 0.5: single scattering, by "
               "quadrature over normals",
-              false, [](const OracleInput& input) { return plane_furnace(input, metal); }),
+              false, metal(),
+              [](const OracleInput& input) {
+                return plane_furnace(input, of_metal(input, rough_metal));
+              }),
+      // Grey but for its light: one index for all channels, as a refracted path has one direction.
       furnace("furnace_rough_glass",
               "L = Le * (R(theta) + T(theta) / eta^2) of a rough glass surface, GGX alpha 0.5: "
               "single scattering, by quadrature over normals",
-              false, [](const OracleInput& input) { return plane_furnace(input, rough_glass); }),
-      furnace("furnace_coat",
-              "L = Le * (E + 0.5 * (1 - E)), E(theta) what a rough coat reflects over a diffuse "
-              "base of albedo 0.5",
-              false,
+              false, {},
               [](const OracleInput& input) {
-                return plane_furnace(
-                    input, [](double c) { return clear_coat_albedo(kGlass, kAlpha, 0.5, c); });
+                return plane_furnace(input, [](double c) { return Colour(rough_glass(c)); });
               }),
-      furnace("furnace_mirror", "L = Le * Fresnel's reflectance of metal", true,
+      furnace("furnace_mirror", "L = Le * Fresnel's reflectance of metal", true, metal(),
               [](const OracleInput& input) {
-                return plane_furnace(input,
-                                     [](double c) { return interface_reflectance(c, 1, kMetal); });
+                return plane_furnace(input, of_metal(input, smooth_metal));
               }),
-      furnace("furnace_blend", "L = Le * (0.6 * 0.5 + 0.4): a diffuse floor and a perfect mirror",
-              true, [](const OracleInput& input) {
-                return plane_furnace(input, [](double) { return 0.6 * 0.5 + 0.4; });
+      furnace("furnace_blend",
+              "L = Le * (0.6 * albedo + 0.4): a diffuse floor and a perfect mirror", true,
+              diffuse_base({0.7, 0.5, 0.25}), [](const OracleInput& input) {
+                return plane_furnace(input, [albedo = reflectance(input, "albedo")](double) {
+                  return 0.6 * albedo + 0.4;
+                });
               })};
 }
 
 /// Lossless, whatever is reflected and refracted how often: all that reaches the eye came from the
 /// sky, and outside radiance is conserved along every path.
 std::unique_ptr<PixelOracle> make_lossless(const OracleInput& input) {
-  const double radiance = parameter(input, "radiance");
-  require(radiance >= 0 && radiance < 1e300, "radiance must be finite and not negative");
+  const Colour radiance = emitted(input, "radiance");
   require(input.max_depth == -1, "light that is trapped long needs an unlimited depth");
   return uniform_oracle(input.camera.film, radiance);
 }
@@ -166,18 +210,16 @@ std::unique_ptr<PixelOracle> make_glass_inside(const OracleInput& input) {
   const Vec3& eye = input.camera.origin;
   require(std::sqrt(dot(eye, eye)) < 1 / eta,
           "beyond R/eta from the centre some directions are trapped");
-  const double radiance = parameter(input, "radiance");
-  require(radiance >= 0 && radiance < 1e300, "radiance must be finite and not negative");
+  const Colour radiance = emitted(input, "radiance");
   require(input.max_depth == -1, "light that is trapped long needs an unlimited depth");
   return uniform_oracle(input.camera.film, eta * eta * radiance);
 }
 
 KnownScene glass_sphere() {
-  KnownScene scene =
-      furnace("glass_sphere", "L = Le: a lossless glass sphere does not show", true, make_lossless);
+  KnownScene scene = furnace("glass_sphere", "L = Le: a lossless glass sphere does not show", true,
+                             {{"eta", 1.5, "index of the glass, 0.4 to 2.5"}}, make_lossless);
   scene.view = {{0, -4, 0}, {0.4, 0, 0.2}, {0, 0, 1}, 50};
   scene.max_depth = -1;
-  scene.parameters.push_back({"eta", 1.5, "index of the glass, 0.4 to 2.5"});
   scene.variants = {{"eta_1", {{"eta", 1.0}}, {}}};
   return scene;
 }

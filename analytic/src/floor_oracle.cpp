@@ -10,21 +10,40 @@
 namespace plumbline::analytic {
 namespace {
 
-using Function = std::function<double(double, double)>;
+using Function = std::function<Colour(double, double)>;
+
+Colour magnitude(const Colour& c) {
+  return by_channel([](double x) { return std::abs(x); }, c);
+}
+
+/// ∫ f from a to b by Gauss and Legendre's rule of N points, an even number.
+template <unsigned N, class F>
+Colour line_rule(const F& f, double a, double b) {
+  static_assert(N % 2 == 0, "an odd rule has a point in the middle");
+  using Rule = boost::math::quadrature::gauss<double, N>;
+  const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
+  Colour sum;
+  for (std::size_t i = 0; i < N / 2; ++i) {
+    const double offset = half * Rule::abscissa()[i];
+    sum = sum + (f(middle - offset) + f(middle + offset)) * Rule::weights()[i];
+  }
+  return sum * half;
+}
 
 /// ∫∫ f over the box by a product rule of N × N points.
 template <unsigned N>
-double product_rule(const Function& f, const FilmBox& box) {
-  using Rule = boost::math::quadrature::gauss<double, N>;
-  return Rule::integrate(
-      [&](double y) { return Rule::integrate([&](double x) { return f(x, y); }, box.x0, box.x1); },
+Colour product_rule(const Function& f, const FilmBox& box) {
+  return line_rule<N>(
+      [&](double y) { return line_rule<N>([&](double x) { return f(x, y); }, box.x0, box.x1); },
       box.y0, box.y1);
 }
 
-Average refine(const Function& f, const FilmBox& box, double tolerance, int levels) {
-  const double fine = product_rule<8>(f, box);
-  const double error = std::abs(fine - product_rule<6>(f, box));
-  if (error <= tolerance || levels == 0) return {fine, error};
+Average refine(const Function& f, const FilmBox& box, const Colour& tolerance, int levels) {
+  const Colour fine = product_rule<8>(f, box);
+  const Colour error = magnitude(fine - product_rule<6>(f, box));
+  const bool precise =
+      in_every_channel([](double e, double most) { return e <= most; }, error, tolerance);
+  if (precise || levels == 0) return {fine, error};
   const double x = 0.5 * (box.x0 + box.x1);
   const double y = 0.5 * (box.y0 + box.y1);
   const std::array<FilmBox, 4> quarters{{{box.x0, box.y0, x, y},
@@ -34,8 +53,8 @@ Average refine(const Function& f, const FilmBox& box, double tolerance, int leve
   Average sum;
   for (const FilmBox& quarter : quarters) {
     const Average part = refine(f, quarter, tolerance / 4, levels - 1);
-    sum.value += part.value;
-    sum.error += part.error;
+    sum.value = sum.value + part.value;
+    sum.error = sum.error + part.error;
   }
   return sum;
 }
@@ -55,7 +74,7 @@ class FloorOracle final : public PixelOracle {
           return outgoing_(floor_point(w), normalize(w) * -1);
         },
         box, precision_.quadrature, precision_.levels);
-    mean.error += precision_.outgoing * std::abs(mean.value);
+    mean.error = mean.error + precision_.outgoing * magnitude(mean.value);
     return mean;
   }
 
@@ -70,20 +89,20 @@ class FloorOracle final : public PixelOracle {
 
 class UniformOracle final : public PixelOracle {
  public:
-  UniformOracle(FilmSize film, double radiance) : PixelOracle(film), radiance_(radiance) {}
+  UniformOracle(FilmSize film, const Colour& radiance) : PixelOracle(film), radiance_(radiance) {}
 
   Average box_mean(const FilmBox&) const override { return {radiance_, 1e-15 * radiance_}; }
 
  private:
-  double radiance_;
+  Colour radiance_;
 };
 
 }  // namespace
 
 Average box_quadrature(const Function& f, const FilmBox& box, double relative, int levels) {
-  const double first = product_rule<6>(f, box);
+  const Colour first = product_rule<6>(f, box);
   const double area = (box.x1 - box.x0) * (box.y1 - box.y0);
-  const Average sum = refine(f, box, relative * std::abs(first), levels);
+  const Average sum = refine(f, box, relative * magnitude(first), levels);
   return {sum.value / area, sum.error / area};
 }
 
@@ -102,7 +121,7 @@ std::unique_ptr<PixelOracle> floor_oracle(const Camera& camera, double half_side
   return oracle;
 }
 
-std::unique_ptr<PixelOracle> uniform_oracle(FilmSize film, double radiance) {
+std::unique_ptr<PixelOracle> uniform_oracle(FilmSize film, const Colour& radiance) {
   return std::make_unique<UniformOracle>(film, radiance);
 }
 

@@ -13,12 +13,12 @@ namespace {
 // the box: 2⁻⁵² × 10³ for films up to a thousand pixels wide.
 constexpr double kRounding = 2.3e-13;
 
-Average exact(double value) { return {value, kRounding * value}; }
+Average exact(const Colour& value) { return {value, kRounding * value}; }
 
 class SphereOnBackgroundOracle final : public PixelOracle {
  public:
-  SphereOnBackgroundOracle(const SphereSilhouette& sphere, FilmSize film, double on_sphere,
-                           double background)
+  SphereOnBackgroundOracle(const SphereSilhouette& sphere, FilmSize film, const Colour& on_sphere,
+                           const Colour& background)
       : PixelOracle(film), sphere_(sphere), on_sphere_(on_sphere), background_(background) {}
 
   Average box_mean(const FilmBox& box) const override {
@@ -28,24 +28,33 @@ class SphereOnBackgroundOracle final : public PixelOracle {
 
  private:
   SphereSilhouette sphere_;
-  double on_sphere_, background_;
+  Colour on_sphere_, background_;
 };
 
 constexpr double kSphereRadius = 1;  // of furnace_open.xml
 
 std::unique_ptr<PixelOracle> make_furnace_open(const OracleInput& input) {
-  const double radiance = parameter(input, "radiance");
-  const double on_sphere =
-      open_furnace_radiance(parameter(input, "albedo"), radiance, input.max_depth);
+  const Colour radiance = colour(input, "radiance");
+  const Colour on_sphere = by_channel(
+      [&](double albedo, double emitted) {
+        return open_furnace_radiance(albedo, emitted, input.max_depth);
+      },
+      colour(input, "albedo"), radiance);
   return std::make_unique<SphereOnBackgroundOracle>(
       SphereSilhouette(input.camera, {0, 0, 0}, kSphereRadius), input.camera.film, on_sphere,
-      input.max_depth == 0 ? 0 : radiance);
+      input.max_depth == 0 ? Colour() : radiance);
+}
+
+Colour closed_furnace(const Colour& albedo, const Colour& radiance, int max_depth) {
+  return by_channel(
+      [&](double a, double emitted) { return closed_furnace_radiance(a, emitted, max_depth); },
+      albedo, radiance);
 }
 
 std::unique_ptr<PixelOracle> make_closed_furnace(const OracleInput& input) {
-  return uniform_oracle(input.camera.film,
-                        closed_furnace_radiance(parameter(input, "albedo"),
-                                                parameter(input, "radiance"), input.max_depth));
+  return uniform_oracle(
+      input.camera.film,
+      closed_furnace(colour(input, "albedo"), colour(input, "radiance"), input.max_depth));
 }
 
 KnownScene furnace_open() {
@@ -55,8 +64,9 @@ KnownScene furnace_open() {
   scene.view = {{0, -4, 0}, {0.4, 0, 0.2}, {0, 0, 1}, 50};
   scene.film = {128, 96};
   scene.max_depth = -1;
-  scene.parameters = {{"albedo", 0.75, "reflectance of the sphere [1], 0 to 1"},
-                      {"radiance", 1, "Le of the environment [W/(m² sr)], not negative"}};
+  scene.parameters = {
+      {"albedo", {0.9, 0.75, 0.4}, "reflectance of the sphere [rgb], 0 to 1"},
+      {"radiance", {0.8, 1, 1.5}, "Le of the environment [rgb, W/(m² sr)], not negative"}};
   scene.expectations = expect_pass_from_all();
   scene.make = make_furnace_open;
   return scene;
@@ -72,9 +82,13 @@ KnownScene furnace_sphere() {
   scene.film = {64, 64};
   scene.max_depth = -1;
   scene.parameters = {
-      {"albedo", 0.5, "reflectance of the wall [1], 0 to 1 (less than 1 at any depth)"},
-      {"radiance", 0.5, "Le of the wall [W/(m² sr)], not negative"}};
+      {"albedo",
+       {0.6, 0.5, 0.3},
+       "reflectance of the wall [rgb], 0 to 1 (less than 1 at any depth)"},
+      {"radiance", {0.3, 0.5, 0.6}, "Le of the wall [rgb, W/(m² sr)], not negative"}};
   scene.expectations = expect_pass_from_all();
+  // Paths go on for the channels that still carry light, whatever the first one does.
+  scene.variants = {{"without_red", {{"albedo", {0, 0.5, 0.7}}}, {}}};
   scene.make = make_closed_furnace;
   return scene;
 }
@@ -85,8 +99,9 @@ KnownScene furnace_white() {
   KnownScene scene = furnace_open();
   scene.name = "furnace_white";
   scene.answer = "L = albedo * Le on a convex Lambertian sphere inside a uniformly emitting sphere";
-  scene.parameters = {{"albedo", 1, "reflectance of the sphere [1], 0 to 1"},
-                      {"radiance", 1, "Le of the sphere around [W/(m² sr)], not negative"}};
+  scene.parameters = {
+      {"albedo", {0.8, 1, 0.5}, "reflectance of the sphere [rgb], 0 to 1"},
+      {"radiance", {1.4, 1, 1.8}, "Le of the sphere around [rgb, W/(m² sr)], not negative"}};
   return scene;
 }
 
@@ -110,6 +125,7 @@ KnownScene furnace_white() {
 KnownScene furnace_cube() {
   KnownScene scene = furnace_sphere();
   scene.name = "furnace_cube";
+  scene.variants.clear();
   scene.answer =
       "L = Le / (1 - albedo) inside a closed emitting cube; Le * sum of albedo^i, i < "
       "max_depth, when truncated";
@@ -130,12 +146,11 @@ KnownScene furnace_cube() {
 // and a path of at most k vertices carries the terms of Le ρ f Σ_{i < k − 1} (ρ (1 − f))ⁱ.
 std::unique_ptr<PixelOracle> make_integrating_sphere(const OracleInput& input) {
   constexpr double kFraction = 0.1;  // (R − z)/(2R) of integrating_sphere.xml: R = 1, z = 0.8
-  const double albedo = parameter(input, "albedo");
+  const Colour albedo = colour(input, "albedo");
   const int terms = input.max_depth < 1 ? input.max_depth : input.max_depth - 1;
-  return uniform_oracle(
-      input.camera.film,
-      albedo * kFraction *
-          closed_furnace_radiance(albedo * (1 - kFraction), parameter(input, "radiance"), terms));
+  return uniform_oracle(input.camera.film, albedo * kFraction *
+                                               closed_furnace(albedo * (1 - kFraction),
+                                                              colour(input, "radiance"), terms));
 }
 
 KnownScene integrating_sphere() {
@@ -147,8 +162,8 @@ KnownScene integrating_sphere() {
   scene.view = {{0, 0, 0.2}, {0.3, 0.1, -1}, {0, 1, 0}, 60};
   scene.film = {64, 64};
   scene.max_depth = -1;
-  scene.parameters = {{"albedo", 0.8, "reflectance of the wall [1], 0 to 1"},
-                      {"radiance", 10, "Le of the disk [W/(m² sr)], not negative"}};
+  scene.parameters = {{"albedo", {0.85, 0.8, 0.6}, "reflectance of the wall [rgb], 0 to 1"},
+                      {"radiance", {7, 10, 12}, "Le of the disk [rgb, W/(m² sr)], not negative"}};
   constexpr std::string_view kReason =
       "sampling the disk by area has infinite variance near its rim, where it meets the wall: "
       "E[X²] grows like 1/h² with the distance h to it";

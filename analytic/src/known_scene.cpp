@@ -51,8 +51,14 @@ std::vector<Expectation> expect_pass_but_for(std::vector<Expectation> exceptions
   return exceptions;
 }
 
-double parameter(const OracleInput& input, std::string_view name) {
+Colour colour(const OracleInput& input, std::string_view name) {
   return input.parameters.find(name)->second;
+}
+
+double parameter(const OracleInput& input, std::string_view name) {
+  const Colour value = colour(input, name);
+  if (!value.is_grey()) throw std::invalid_argument(std::string(name) + " must be one number");
+  return value.g;
 }
 
 KnownScene floor_scene(std::string_view name, std::string_view answer,
@@ -67,29 +73,40 @@ KnownScene floor_scene(std::string_view name, std::string_view answer,
   return scene;
 }
 
-Parameter light_radiance(double value) {
-  return {"radiance", value, "Le of the light [W/(m² sr)], not negative"};
+Parameter light_radiance(const Colour& value) {
+  return {"radiance", value, "Le of the light [rgb, W/(m² sr)], not negative"};
 }
 
-Parameter floor_albedo(double value) {
-  return {"albedo", value, "reflectance of the floor [1], 0 to 1"};
+Parameter floor_albedo(const Colour& value) {
+  return {"albedo", value, "reflectance of the floor [rgb], 0 to 1"};
 }
 
 bool counts_reflected(const OracleInput& input) {
   return input.max_depth == -1 || input.max_depth >= 2;
 }
 
-double albedo_over_pi(const OracleInput& input) {
-  const double albedo = parameter(input, "albedo");
-  require(albedo >= 0 && albedo <= 1, "albedo must be in [0, 1]");
-  return counts_reflected(input) ? albedo / std::numbers::pi : 0;
+Colour reflectance(const OracleInput& input, std::string_view name) {
+  const Colour value = colour(input, name);
+  require(in_every_channel([](double x) { return x >= 0 && x <= 1; }, value),
+          "a reflectance must be in [0, 1]");
+  return value;
 }
 
-double reflected_radiance(const OracleInput& input) {
-  const double radiance = parameter(input, "radiance");
-  require(radiance >= 0 && radiance <= std::numeric_limits<double>::max(),
-          "radiance must be finite and not negative");
-  return albedo_over_pi(input) * radiance;
+Colour emitted(const OracleInput& input, std::string_view name) {
+  const Colour value = colour(input, name);
+  require(in_every_channel(
+              [](double x) { return x >= 0 && x <= std::numeric_limits<double>::max(); }, value),
+          "what a light emits must be finite and not negative");
+  return value;
+}
+
+Colour albedo_over_pi(const OracleInput& input) {
+  const Colour albedo = reflectance(input, "albedo");
+  return counts_reflected(input) ? albedo / std::numbers::pi : Colour();
+}
+
+Colour reflected_radiance(const OracleInput& input) {
+  return albedo_over_pi(input) * emitted(input, "radiance");
 }
 
 const std::vector<KnownScene>& known_scenes() {
@@ -124,6 +141,14 @@ const KnownScene& known_scene(std::string_view name) {
 std::filesystem::path scene_file(std::string_view name) {
   return std::filesystem::path(PLUMBLINE_ANALYTIC_SCENES) /
          (std::string(known_scene(name).name) + ".xml");
+}
+
+ParameterValues in_grey(const KnownScene& scene) {
+  ParameterValues values;
+  for (const Parameter& parameter : scene.parameters) {
+    values.emplace(parameter.name, parameter.value.g);
+  }
+  return values;
 }
 
 std::unique_ptr<PixelOracle> make_oracle(const KnownScene& scene, const ParameterValues& overrides,

@@ -69,7 +69,7 @@ void require_front(const Camera& camera, const Polygon& light) {
 }
 
 std::unique_ptr<PixelOracle> diffuse_floor(const OracleInput& input, const Polygon& light) {
-  const double reflected = reflected_radiance(input);
+  const Colour reflected = reflected_radiance(input);
   require_front(input.camera, light);
   return floor_oracle(input.camera, kFloorHalfSide, [=](const Vec3& p, const Vec3&) {
     return reflected * polygon_irradiance(light, p, kUp);
@@ -98,8 +98,8 @@ KnownScene rectangle_light() {
   scene.parameters = {
       {"tilt", 180, "turn of the light about y [degrees]; 180 faces down, 90 along x"},
       {"height", 1.5, "of the light's centre over the floor [m]"},
-      light_radiance(4),
-      floor_albedo(0.75)};
+      light_radiance({3, 4, 5}),
+      floor_albedo({0.9, 0.75, 0.4})};
   scene.variants = {{"cut_by_the_horizon", {{"tilt", 90.0}, {"height", 0.2}}, {}}};
   return scene;
 }
@@ -124,7 +124,7 @@ KnownScene thin_gap() {
       "L = albedo / pi * Le * Lambert's formula on a floor 1e-4 below an emitting square",
       make_thin_gap);
   scene.view = {{0, 0, 5e-5}, {0, 0, 0}, {0, 1, 0}, 90};
-  scene.parameters = {light_radiance(1), floor_albedo(0.75)};
+  scene.parameters = {light_radiance({0.8, 1, 1.5}), floor_albedo({0.9, 0.75, 0.4})};
   constexpr std::string_view kReason =
       "points spread over the area A of a light at the distance h seldom lie where they count: the "
       "variance is about A/h², 4e8 times the squared mean";
@@ -147,8 +147,8 @@ KnownScene scaled_moved() {
   scene.view = {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 90};
   scene.parameters = {{"scale", 1, "of everything, positive"},
                       {"offset", 0, "of everything along each axis [m]"},
-                      light_radiance(4),
-                      floor_albedo(0.75)};
+                      light_radiance({3, 4, 5}),
+                      floor_albedo({0.9, 0.75, 0.4})};
   scene.variants = {{"moved_by_1e5", {{"offset", 1e5}}, {}},
                     {"scaled_by_1e-3", {{"scale", 1e-3}}, {}},
                     {"scaled_by_1e3", {{"scale", 1e3}}, {}}};
@@ -158,11 +158,9 @@ KnownScene scaled_moved() {
 /// The small light covers a part of the large one, as seen from every point in view: there its
 /// radiance counts and the other's does not.
 std::unique_ptr<PixelOracle> make_lights_overlap(const OracleInput& input) {
-  const double reflected = reflected_radiance(input);
-  const double radiance = parameter(input, "radiance"), small_radiance = parameter(input, "small");
-  require(radiance > 0 && small_radiance >= 0,
-          "radiances must not be negative, nor the large one 0");
-  const double excess = small_radiance / radiance - 1;
+  const Colour reflected = reflected_radiance(input);
+  const Colour albedo = albedo_over_pi(input);
+  const Colour excess = emitted(input, "small") - emitted(input, "radiance");
   const Polygon large = placed(rectangle(1, 1), 180, {0, 0, 2});
   const Polygon small = placed(rectangle(0.25, 0.25), 180, {0, 0, 1});
   for (const Vec3& p : seen_corners(input.camera)) {
@@ -171,8 +169,8 @@ std::unique_ptr<PixelOracle> make_lights_overlap(const OracleInput& input) {
             "the small light must stand before the large one from every point in view");
   }
   return floor_oracle(input.camera, kFloorHalfSide, [=](const Vec3& p, const Vec3&) {
-    return reflected *
-           (polygon_irradiance(large, p, kUp) + excess * polygon_irradiance(small, p, kUp));
+    return reflected * polygon_irradiance(large, p, kUp) +
+           albedo * excess * polygon_irradiance(small, p, kUp);
   });
 }
 
@@ -182,9 +180,10 @@ KnownScene lights_overlap() {
       "L = albedo / pi * (Le * E_large + (small - Le) * E_small): one light in front of another",
       make_lights_overlap);
   scene.view = {{0, 0, 0.5}, {0, 0, 0}, {0, 1, 0}, 90};
-  scene.parameters = {{"small", 5, "Le of the small light [W/(m² sr)], not negative"},
-                      {"radiance", 1, "Le of the large light [W/(m² sr)], positive"},
-                      floor_albedo(0.75)};
+  scene.parameters = {
+      {"small", {6, 5, 2}, "Le of the small light [rgb, W/(m² sr)], not negative"},
+      {"radiance", {0.8, 1, 1.5}, "Le of the large light [rgb, W/(m² sr)], not negative"},
+      floor_albedo({0.9, 0.75, 0.4})};
   return scene;
 }
 
@@ -197,13 +196,13 @@ int whole_exponent(const OracleInput& input) {
 Vec3 mirrored(const Vec3& to_camera) { return {-to_camera.x, -to_camera.y, to_camera.z}; }
 
 /// (n + 2)/(2π) · reflectance · Le: what turns a moment into reflected radiance.
-double phong_scale(const OracleInput& input, int exponent) {
-  return reflected_radiance(input) * (exponent + 2) / 2;
+Colour phong_scale(const OracleInput& input, int exponent) {
+  return reflected_radiance(input) * (0.5 * (exponent + 2));
 }
 
 std::unique_ptr<PixelOracle> make_phong_polygon(const OracleInput& input) {
   const int n = whole_exponent(input);
-  const double scale = phong_scale(input, n);
+  const Colour scale = phong_scale(input, n);
   const Polygon light = placed(rectangle(0.6, 0.6), 225, {1.2, 0, 1.2});
   require_front(input.camera, light);
   return floor_oracle(input.camera, kFloorHalfSide, [=](const Vec3& p, const Vec3& to_camera) {
@@ -218,15 +217,15 @@ KnownScene phong_polygon() {
       make_phong_polygon);
   scene.view = {{-1.2, 0, 1.2}, {0, 0, 0}, {0, 0, 1}, 40};
   scene.parameters = {{"exponent", 20, "of the Phong lobe, a whole number"},
-                      light_radiance(4),
-                      {"albedo", 0.75, "reflectance of the lobe [1], 0 to 1"}};
+                      light_radiance({3, 4, 5}),
+                      {"albedo", {0.9, 0.75, 0.4}, "reflectance of the lobe [rgb], 0 to 1"}};
   return scene;
 }
 
 /// A sphere light of radius 0.8 at (1.5, 0, 1.5): a cone of light from every point of the floor.
 std::unique_ptr<PixelOracle> make_phong_cone(const OracleInput& input) {
   const int n = whole_exponent(input);
-  const double scale = phong_scale(input, n);
+  const Colour scale = phong_scale(input, n);
   return floor_oracle(input.camera, kFloorHalfSide, [=](const Vec3& p, const Vec3& to_camera) {
     const Vec3 to_light = Vec3{1.5, 0, 1.5} - p;
     const double distance = std::sqrt(dot(to_light, to_light));

@@ -13,7 +13,7 @@ namespace {
 constexpr double kDiskRadius = 1, kDiskHeight = 2.4, kEdgeHeight = 0.8;
 
 std::unique_ptr<PixelOracle> make_edge_shadow(const OracleInput& input) {
-  const double reflected = reflected_radiance(input);
+  const Colour reflected = reflected_radiance(input);
   // The blocker ends at x = -20, y = ±10, far outside the lines from what is seen to the disk.
   return floor_oracle(input.camera, 1,
                       [reflected](const Vec3& p, const Vec3&) {
@@ -33,7 +33,7 @@ KnownScene edge_shadow() {
       "of it to all",
       make_edge_shadow);
   scene.view = {{0, 0, 0.5}, {0, 0, 0}, {0, 1, 0}, 90};
-  scene.parameters = {light_radiance(10), floor_albedo(0.75)};
+  scene.parameters = {light_radiance({7, 10, 12}), floor_albedo({0.9, 0.75, 0.4})};
   return scene;
 }
 
@@ -48,7 +48,7 @@ SphereCone cone_towards(const Vec3& center, double radius, const Vec3& from) {
 }
 
 std::unique_ptr<PixelOracle> make_sphere_shadow(const OracleInput& input) {
-  const double reflected = reflected_radiance(input);
+  const Colour reflected = reflected_radiance(input);
   const Vec3 blocker{parameter(input, "blocker_x"), 0, kBlockerHeight};
   return floor_oracle(input.camera, 1,
                       [=](const Vec3& p, const Vec3&) {
@@ -67,8 +67,8 @@ KnownScene sphere_shadow() {
       make_sphere_shadow);
   scene.view = {{0, 0, 0.5}, {0, 0, 0}, {0, 1, 0}, 60};
   scene.parameters = {{"blocker_x", 0.9, "how far the blocker stands aside [m]"},
-                      light_radiance(10),
-                      floor_albedo(0.75)};
+                      light_radiance({7, 10, 12}),
+                      floor_albedo({0.9, 0.75, 0.4})};
   scene.variants = {{"umbra", {{"blocker_x", 0.0}}, {}}, {"clear", {{"blocker_x", 3.0}}, {}}};
   return scene;
 }

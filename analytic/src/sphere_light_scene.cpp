@@ -23,7 +23,7 @@ struct FloorBox {
 
 /// Mean of the irradiance of a sphere that dips into the floor: no antiderivative is known, and
 /// outside the sphere the integrand is smooth.
-Average clipped_mean(double radius, double height, const FloorBox& box) {
+Quadrature clipped_mean(double radius, double height, const FloorBox& box) {
   double inner_error = 0;
   const auto row = [&](double y) {
     const Quadrature across = integrate_smooth(
@@ -57,7 +57,7 @@ bool out_of_view(const Camera& camera, const Vec3& center, double radius) {
 
 class SphereLightOracle final : public PixelOracle {
  public:
-  SphereLightOracle(const Camera& camera, double radius, double height, double reflected)
+  SphereLightOracle(const Camera& camera, double radius, double height, const Colour& reflected)
       : PixelOracle(camera.film),
         camera_(camera),
         radius_(radius),
@@ -66,7 +66,7 @@ class SphereLightOracle final : public PixelOracle {
 
   Average box_mean(const FilmBox& box) const override {
     const FloorBox floor = on_floor(box);
-    Average mean;
+    Quadrature mean;
     if (height_ >= radius_) {
       mean.value =
           sphere_irradiance_mean_above(radius_, height_, floor.x0, floor.x1, floor.y0, floor.y1);
@@ -89,7 +89,7 @@ class SphereLightOracle final : public PixelOracle {
  private:
   Camera camera_;
   double radius_, height_;
-  double reflected_;  // albedo/π · Le
+  Colour reflected_;  // albedo/π · Le
 };
 
 std::unique_ptr<PixelOracle> make_sphere_light(const OracleInput& input) {
@@ -124,18 +124,21 @@ KnownScene sphere_light() {
   scene.max_depth = 2;
   scene.parameters = {{"radius", 0.8, "of the light [m], positive"},
                       {"height", 1, "of the light's centre over the floor [m], more than -radius"},
-                      {"radiance", 4, "Le of the light [W/(m² sr)], not negative"},
-                      {"albedo", 0.75, "reflectance of the floor [1], 0 to 1"}};
+                      {"radiance", {3, 4, 5}, "Le of the light [rgb, W/(m² sr)], not negative"},
+                      {"albedo", {0.9, 0.75, 0.4}, "reflectance of the floor [rgb], 0 to 1"}};
   scene.expectations = expect_pass_from_all();
   constexpr std::string_view kTooSmall =
       "directions that know nothing of the light find it once in 1e13 tries";
   // A direction from the BSDF meets the far light with P = sin²θ cosθ and then counts albedo · Le,
-  // so its second moment is albedo · Le · L; the mean of L over the film is 0.115402. Half of each
-  // of two techniques has a quarter of it, beside which the light samples' is nothing.
-  const double average = 0.75 * 1e12 * 0.115402 / 4;
+  // so its second moment is albedo · Le · L = (albedo · Le)² P; the mean of P over the film is
+  // 1.538693e-13. Half of each of two techniques has a quarter of it, beside which the light
+  // samples' is nothing.
+  const Colour far{1.5e12, 1e12, 0.8e12};
+  const Colour reflected = Colour{0.9, 0.75, 0.4} * far;
+  const Colour average = reflected * reflected * (1.538693e-13 / 4);
   scene.variants = {{"cut_by_the_horizon", {{"height", 0.5}}, {}},
                     {"far",
-                     {{"radius", 1e-6}, {"radiance", 1e12}},
+                     {{"radius", 1e-6}, {"radiance", far}},
                      {{Strategy::bsdf, Expected::hopeless, kTooSmall},
                       {Strategy::uniform, Expected::hopeless, kTooSmall},
                       {Strategy::average, Expected::hopeless, kTooSmall, average}}}};

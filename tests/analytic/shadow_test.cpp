@@ -99,9 +99,9 @@ TEST(EclipsedIrradiance, RefusesALightBelowTheHorizon) {
 
 TEST(SphereShadowScene, IsBlackInTheUmbraAndUnblockedFarAside) {
   const KnownScene& scene = known_scene("sphere_shadow");
-  EXPECT_EQ(make_oracle(scene, {{"blocker_x", 0.0}})->image_mean().value, 0);
+  EXPECT_EQ(make_oracle(scene, {{"blocker_x", 0.0}})->image_mean().value.g, 0);
   // Without the blocker: π R² h/d³ over the patch, from sphere_light's own closed form.
-  const double clear = make_oracle(scene, {{"blocker_x", 3.0}})->image_mean().value;
+  const double clear = make_oracle(scene, {{"blocker_x", 3.0}})->image_mean().value.g;
   const double x = 0.5 * std::tan(pi / 6), y = 0.75 * x;
   const double radiance_over_pi = 10 * 0.75 / pi;
   const double by_hand = gauss_kronrod<double, 31>::integrate(
@@ -116,11 +116,11 @@ TEST(SphereShadowScene, IsBlackInTheUmbraAndUnblockedFarAside) {
 TEST(IntegratingSphereScene, BalancesAndTruncatesToItsSeries) {
   const KnownScene& scene = known_scene("integrating_sphere");
   const double f = 0.1, albedo = 0.8, emitted = 10;
-  const double e = make_oracle(scene)->image_mean().value / albedo * pi;
+  const double e = make_oracle(scene)->image_mean().value.g / albedo * pi;
   EXPECT_NEAR(e, pi * emitted * f + albedo * (1 - f) * e, 1e-12);
   double sum = 0, power = 1;
   for (int depth = 1; depth <= 5; ++depth) {
-    EXPECT_NEAR(make_oracle(scene, {}, std::nullopt, depth)->image_mean().value,
+    EXPECT_NEAR(make_oracle(scene, {}, std::nullopt, depth)->image_mean().value.g,
                 albedo * emitted * f * sum, 1e-13);
     sum += power;
     power *= albedo * (1 - f);

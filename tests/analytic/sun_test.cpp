@@ -39,7 +39,7 @@ double over_cone(const Vec3& axis, double half_angle, const F& f) {
 /// The image at a point: its mean over a box far smaller than anything in it.
 double at(const PixelOracle& oracle, double x, double y) {
   constexpr double kHalf = 1e-4;
-  return oracle.box_mean({x - kHalf, y - kHalf, x + kHalf, y + kHalf}).value;
+  return oracle.box_mean({x - kHalf, y - kHalf, x + kHalf, y + kHalf}).value.g;
 }
 
 constexpr std::array<std::pair<double, double>, 5> kFilmPoints{

@@ -12,6 +12,7 @@
 #include <plumbline/renderer/scene_file/load_scene.h>
 #include <plumbline/verify/mean.h>
 #include <plumbline_tests/support.h>
+#include "colour_check.h"
 
 /// Sample allocation in the renderer: the image that it converges to, and what it refuses.
 namespace plumbline::tests {
@@ -36,6 +37,20 @@ renderer::RenderOptions allocated(Allocation policy, std::uint64_t seed) {
   return options;
 }
 
+/// One sample is one image. Their numbers come from the seed of the check, counted up.
+ColourSampler allocated_images(const Scene& scene, Allocation policy, std::uint64_t seed) {
+  return [&scene, policy, seed](std::uint64_t first, std::uint64_t count) {
+    ColourMoments moments;
+    for (std::uint64_t i = first; i < first + count; ++i) {
+      const renderer::Rgbd mean = render(scene, allocated(policy, seed + i)).film.mean();
+      for (std::size_t k = 0; k < moments.size(); ++k) {
+        moments[k].add(mean.*kChannels[k].rendered);
+      }
+    }
+    return moments;
+  };
+}
+
 class AllocatedImage : public testing::TestWithParam<Allocation> {};
 
 TEST_P(AllocatedImage, MeanIsTheClosedFormForEveryPolicy) {
@@ -43,17 +58,14 @@ TEST_P(AllocatedImage, MeanIsTheClosedFormForEveryPolicy) {
   verify::MeanOptions options;
   options.subject = "sphere_light/allocation ";
   options.subject.append(name(GetParam()));
-  options.reference = make_oracle(analytic::known_scene("sphere_light"))->image_mean().value;
   options.seed = check_seed(options.subject);
   options.max_samples = 1 << 16;
-  // One sample is one image. Their numbers come from the seed of the check, counted up.
-  expect_verdict(check_mean(options, [&](std::uint64_t first, std::uint64_t count) {
-    verify::Moments moments;
-    for (std::uint64_t i = first; i < first + count; ++i) {
-      moments.add(luminance(render(scene, allocated(GetParam(), options.seed + i)).film.mean()));
-    }
-    return moments;
-  }));
+  const analytic::Colour answer =
+      make_oracle(analytic::known_scene("sphere_light"))->image_mean().value;
+  for (const verify::CheckResult& result : check_channels(
+           for_each_channel(options, answer), allocated_images(scene, GetParam(), options.seed))) {
+    expect_verdict(result);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Policies, AllocatedImage, testing::ValuesIn(renderer::kAllocations),
@@ -67,18 +79,16 @@ TEST(AllocatedImageControl, AnswerOffByOnePercentFails) {
   const Scene scene = make_scene(small_scene("sphere_light"));
   verify::MeanOptions options;
   options.subject = "control/sphere_light, allocation root-v2, answer off by 1 %";
-  options.reference = 1.01 * make_oracle(analytic::known_scene("sphere_light"))->image_mean().value;
   options.seed = check_seed(options.subject);
   options.max_samples = 1 << 16;
   options.expected = verify::Verdict::fail;
-  expect_verdict(check_mean(options, [&](std::uint64_t first, std::uint64_t count) {
-    verify::Moments moments;
-    for (std::uint64_t i = first; i < first + count; ++i) {
-      moments.add(
-          luminance(render(scene, allocated(Allocation::root_v2, options.seed + i)).film.mean()));
-    }
-    return moments;
-  }));
+  const analytic::Colour answer =
+      1.01 * make_oracle(analytic::known_scene("sphere_light"))->image_mean().value;
+  for (const verify::CheckResult& result :
+       check_channels(for_each_channel(options, answer),
+                      allocated_images(scene, Allocation::root_v2, options.seed))) {
+    expect_verdict(result);
+  }
 }
 
 TEST(AllocatedRender, IsTheSameForAnyNumberOfThreads) {

@@ -4,6 +4,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -18,35 +20,46 @@ namespace {
 using renderer::PixelMoments;
 using renderer::PixelSampler;
 using renderer::RenderOptions;
+using renderer::Rgbd;
 using renderer::SamplerType;
 using renderer::Scene;
 
 constexpr std::uint64_t kChunk = renderer::kSamplesPerTile;
 
-double luminance_of(const PixelMoments& moments) {
-  return moments.non_finite > 0 ? std::numeric_limits<double>::quiet_NaN()
-                                : luminance(moments.mean);
+/// What is judged of a sample: a path, or the mean of a net of them.
+using Quantity = double (*)(const Rgbd& mean);
+
+double value_of(const PixelMoments& moments, Quantity quantity) {
+  return moments.non_finite > 0 ? std::numeric_limits<double>::quiet_NaN() : quantity(moments.mean);
 }
 
+/// Moments of N quantities of the same samples.
+template <std::size_t N>
 class PathSamples {
  public:
-  PathSamples(const Scene& scene, RenderOptions options)
-      : options_(std::move(options)), samplers_(pixel_samplers(scene, options_)) {}
+  using All = std::array<verify::Moments, N>;
 
-  verify::Moments draw(std::uint64_t first, std::uint64_t count) {
+  PathSamples(const Scene& scene, RenderOptions options, const std::array<Quantity, N>& quantities)
+      : options_(std::move(options)),
+        quantities_(quantities),
+        samplers_(pixel_samplers(scene, options_)) {}
+
+  All draw(std::uint64_t first, std::uint64_t count) {
     const std::uint64_t chunks = (count + kChunk - 1) / kChunk;
-    std::vector<verify::Moments> parts(chunks);
+    std::vector<All> parts(chunks);
     oneapi::tbb::parallel_for(std::uint64_t{0}, chunks, [&](std::uint64_t chunk) {
       const std::uint64_t begin = first + chunk * kChunk;
       parts[chunk] = draw_chunk(begin, std::min(begin + kChunk, first + count));
     });
-    verify::Moments all;
-    for (const verify::Moments& part : parts) all.merge(part);
+    All all;
+    for (const All& part : parts) {
+      for (std::size_t i = 0; i < N; ++i) all[i].merge(part[i]);
+    }
     return all;
   }
 
  private:
-  verify::Moments draw_chunk(std::uint64_t begin, std::uint64_t end) {
+  All draw_chunk(std::uint64_t begin, std::uint64_t end) {
     const std::uint32_t net_size = options_.sampler == SamplerType::sobol ? kNetSize : 1;
     PixelSampler& sampler = *samplers_.local();
     std::vector<PixelMoments> nets(end - begin);
@@ -54,14 +67,32 @@ class PathSamples {
       for (std::uint32_t i = 0; i < net_size; ++i) sampler.sample(0, 0, net, i, nets[net - begin]);
     }
     sampler.finish();
-    verify::Moments moments;
-    for (const PixelMoments& net : nets) moments.add(luminance_of(net));
+    All moments;
+    // All quantities of a sample together: each waits for its own last sum, not for the others'.
+    for (const PixelMoments& net : nets) {
+      for (std::size_t i = 0; i < N; ++i) moments[i].add(value_of(net, quantities_[i]));
+    }
     return moments;
   }
 
   RenderOptions options_;
+  std::array<Quantity, N> quantities_;
   oneapi::tbb::enumerable_thread_specific<std::unique_ptr<PixelSampler>> samplers_;
 };
+
+template <std::size_t N>
+std::shared_ptr<PathSamples<N>> make_samples(const Scene& scene, const renderer::PathOptions& path,
+                                             std::uint64_t seed, SamplerType sampler,
+                                             const std::array<Quantity, N>& quantities) {
+  if (scene.camera().width() != 1 || scene.camera().height() != 1) {
+    throw std::invalid_argument("samples of paths take a scene of one pixel");
+  }
+  RenderOptions options;
+  options.path = path;
+  options.seed = seed;
+  options.sampler = sampler;
+  return std::make_shared<PathSamples<N>>(scene, std::move(options), quantities);
+}
 
 }  // namespace
 
@@ -74,18 +105,23 @@ renderer::SceneDescription one_pixel(renderer::SceneDescription scene) {
   return scene;
 }
 
-verify::MomentSampler path_samples(const Scene& scene, const renderer::PathOptions& path,
-                                   std::uint64_t seed, SamplerType sampler) {
-  if (scene.camera().width() != 1 || scene.camera().height() != 1) {
-    throw std::invalid_argument("path_samples takes a scene of one pixel");
-  }
-  RenderOptions options;
-  options.path = path;
-  options.seed = seed;
-  options.sampler = sampler;
-  const auto samples = std::make_shared<PathSamples>(scene, std::move(options));
+ColourSampler path_samples(const Scene& scene, const renderer::PathOptions& path,
+                           std::uint64_t seed, SamplerType sampler) {
+  const auto samples =
+      make_samples<3>(scene, path, seed, sampler,
+                      {[](const Rgbd& c) { return c.r; }, [](const Rgbd& c) { return c.g; },
+                       [](const Rgbd& c) { return c.b; }});
   return
       [samples](std::uint64_t first, std::uint64_t count) { return samples->draw(first, count); };
+}
+
+verify::MomentSampler luminance_samples(const Scene& scene, const renderer::PathOptions& path,
+                                        std::uint64_t seed, SamplerType sampler) {
+  const auto samples =
+      make_samples<1>(scene, path, seed, sampler, {[](const Rgbd& c) { return luminance(c); }});
+  return [samples](std::uint64_t first, std::uint64_t count) {
+    return samples->draw(first, count)[0];
+  };
 }
 
 }  // namespace plumbline::tests

@@ -5,6 +5,7 @@
 #include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/core/render/path.h>
 #include <plumbline/verify/mean.h>
+#include "colour_check.h"
 
 namespace plumbline::tests {
 
@@ -12,14 +13,19 @@ namespace plumbline::tests {
 /// independent, identically distributed samples with the mean of the whole image.
 renderer::SceneDescription one_pixel(renderer::SceneDescription scene);
 
-/// Luminance samples of paths through the one pixel, by the backend that users get. Drawn in
-/// parallel, merged in a fixed order.
+/// Samples of paths through the one pixel, channel by channel, by the backend that users get. Drawn
+/// in parallel, merged in a fixed order.
 ///
 /// Under Sobol one sample is the mean over a net of kNetSize paths with a scramble of its own: the
 /// paths of one net depend on each other, nets do not.
 ///
 /// @param scene  of `one_pixel`; must outlive the sampler
-verify::MomentSampler path_samples(
+ColourSampler path_samples(const renderer::Scene& scene, const renderer::PathOptions& path,
+                           std::uint64_t seed,
+                           renderer::SamplerType sampler = renderer::SamplerType::independent);
+
+/// The luminance of the same samples.
+verify::MomentSampler luminance_samples(
     const renderer::Scene& scene, const renderer::PathOptions& path, std::uint64_t seed,
     renderer::SamplerType sampler = renderer::SamplerType::independent);
 

@@ -33,10 +33,10 @@ class BenchScene {
         scene_(renderer::make_scene(one_pixel(description_))) {}
 
   verify::MomentSampler samples(Strategy strategy, std::uint64_t seed) const {
-    return path_samples(scene_,
-                        {strategy, Heuristic::power, description_.integrator.max_depth,
-                         description_.integrator.rr_depth},
-                        seed);
+    return luminance_samples(scene_,
+                             {strategy, Heuristic::power, description_.integrator.max_depth,
+                              description_.integrator.rr_depth},
+                             seed);
   }
 
   std::vector<verify::Moments> batches(Strategy strategy, std::uint64_t seed) const {

@@ -9,6 +9,7 @@
 #include <plumbline/renderer/scene_file/load_scene.h>
 #include <plumbline/verify/image.h>
 #include <plumbline_tests/support.h>
+#include "colour_check.h"
 
 /// Whole images against the closed form averaged over each pixel's footprint: mean, tiles and
 /// pixels.
@@ -30,21 +31,25 @@ renderer::Film render_scene(const std::string& scene_name, std::uint32_t samples
   return render(renderer::make_scene(description), options).film;
 }
 
-/// The scenes are grey: one channel says it all.
-verify::Image green(const renderer::Film& film) {
+verify::Image rendered(const renderer::Film& film, const Channel& channel) {
   verify::Image image{film.width(), film.height(), {}, {}, {}};
   for (const renderer::PixelMoments& pixel : film.pixels()) {
-    image.mean.push_back(pixel.mean.g);
-    image.variance.push_back(pixel.variance().g);
+    image.mean.push_back(pixel.mean.*channel.rendered);
+    image.variance.push_back(pixel.variance().*channel.rendered);
     image.count.push_back(pixel.count);
   }
   return image;
 }
 
-verify::Image exact(const std::string& scene_name,
-                    const analytic::ParameterValues& overrides = {}) {
-  const auto oracle = make_oracle(analytic::known_scene(scene_name), overrides, kFilm);
-  return {kFilm.width, kFilm.height, oracle->image(), {}, {}};
+std::vector<analytic::Colour> exact_pixels(const std::string& scene_name,
+                                           const analytic::ParameterValues& overrides = {}) {
+  return make_oracle(analytic::known_scene(scene_name), overrides, kFilm)->image();
+}
+
+verify::Image exact(const std::vector<analytic::Colour>& pixels, const Channel& channel) {
+  verify::Image image{kFilm.width, kFilm.height, {}, {}, {}};
+  for (const analytic::Colour& pixel : pixels) image.mean.push_back(pixel.*channel.exact);
+  return image;
 }
 
 verify::ImageOptions options_for(const std::string& subject, verify::Verdict expected) {
@@ -59,9 +64,13 @@ verify::ImageOptions options_for(const std::string& subject, verify::Verdict exp
 class WholeImage : public testing::TestWithParam<std::string> {};
 
 TEST_P(WholeImage, EveryPixelIsTheClosedFormOverItsFootprint) {
-  const auto options = options_for(GetParam() + "/image", verify::Verdict::pass);
-  const renderer::Film film = render_scene(GetParam(), 512, options.seed);
-  expect_verdict(check_image(options, green(film), exact(GetParam())).check);
+  const renderer::Film film = render_scene(GetParam(), 512, check_seed(GetParam() + "/image"));
+  const std::vector<analytic::Colour> pixels = exact_pixels(GetParam());
+  for (const Channel& channel : kChannels) {
+    const auto options =
+        options_for(GetParam() + "/image/" + std::string(channel.name), verify::Verdict::pass);
+    expect_verdict(check_image(options, rendered(film, channel), exact(pixels, channel)).check);
+  }
 }
 
 std::vector<std::string> scene_names() {
@@ -73,17 +82,22 @@ std::vector<std::string> scene_names() {
 INSTANTIATE_TEST_SUITE_P(Scenes, WholeImage, testing::ValuesIn(scene_names()),
                          [](const auto& scene) { return scene.param; });
 
-TEST(WholeImageControl, AnAlbedoOffByOnePercentFails) {
-  const auto options =
-      options_for("control/furnace_open, albedo off by 1 %", verify::Verdict::fail);
-  const renderer::Film film = render_scene("furnace_open", 1024, options.seed);
-  expect_verdict(
-      check_image(options, green(film), exact("furnace_open", {{"albedo", 0.7575}})).check);
+TEST(WholeImageControl, AnAlbedoOffByOnePercentInOneChannelFailsInThatChannel) {
+  const std::string subject = "control/furnace_open, green albedo off by 1 %";
+  const renderer::Film film = render_scene("furnace_open", 1024, check_seed(subject));
+  const auto pixels = exact_pixels("furnace_open", {{"albedo", {0.9, 0.7575, 0.4}}});
+  for (const Channel& channel : kChannels) {
+    const auto options =
+        options_for(subject + "/" + std::string(channel.name),
+                    channel.name == "green" ? verify::Verdict::fail : verify::Verdict::pass);
+    expect_verdict(check_image(options, rendered(film, channel), exact(pixels, channel)).check);
+  }
 }
 
 TEST(WholeImageControl, AnImageMovedByOnePixelFailsThoughItsMeanHardlyChanges) {
   const auto options = options_for("control/furnace_open, one pixel aside", verify::Verdict::fail);
-  const verify::Image image = green(render_scene("furnace_open", 1024, options.seed));
+  const Channel& green = kChannels[1];
+  const verify::Image image = rendered(render_scene("furnace_open", 1024, options.seed), green);
   verify::Image moved = image;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 1; x < image.width; ++x) {
@@ -92,7 +106,7 @@ TEST(WholeImageControl, AnImageMovedByOnePixelFailsThoughItsMeanHardlyChanges) {
       moved.variance[to] = image.variance[to - 1];
     }
   }
-  expect_verdict(check_image(options, moved, exact("furnace_open")).check);
+  expect_verdict(check_image(options, moved, exact(exact_pixels("furnace_open"), green)).check);
 }
 
 }  // namespace

@@ -43,8 +43,12 @@ TEST(CompareCommand, UnbiasedImagePassesAndProvesABound) {
   render(scratch, "sphere_light -o a.exr --spp 256");
   const Outcome outcome = run_plumbline(scratch.path(), "compare a.exr --scene sphere_light");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
-  EXPECT_NE(outcome.out.find("a.exr against sphere_light: image check gives pass, as expected"),
-            std::string::npos);
+  for (const char* channel : {"R", "G", "B"}) {
+    EXPECT_NE(outcome.out.find(std::string("a.exr against sphere_light, ") + channel +
+                               ": image check gives pass, as expected"),
+              std::string::npos)
+        << channel;
+  }
   EXPECT_NE(outcome.out.find("|bias| <="), std::string::npos);
 }
 
@@ -80,6 +84,28 @@ TEST(CompareCommand, ParametersAndDepthComeFromTheHeader) {
   strip(scratch, "a.exr", "b.exr");
   EXPECT_EQ(compare(scratch, "b.exr --scene furnace_sphere"), 1);
   EXPECT_EQ(compare(scratch, "b.exr --scene furnace_sphere -D albedo=0.25 --max-depth 2"), 0);
+}
+
+TEST(CompareCommand, ParametersMayBeColours) {
+  const ScratchDirectory scratch;
+  render(scratch, "furnace_sphere -o a.exr --spp 256 -D albedo=0.2,0.3,0.4 --max-depth 2");
+  EXPECT_EQ(compare(scratch, "a.exr --scene furnace_sphere"), 0);
+  strip(scratch, "a.exr", "b.exr");
+  EXPECT_EQ(compare(scratch, "b.exr --scene furnace_sphere -D albedo=0.2,0.3,0.4 --max-depth 2"),
+            0);
+  EXPECT_EQ(compare(scratch, "b.exr --scene furnace_sphere -D albedo=0.2,0.4,0.3 --max-depth 2"),
+            1);
+  EXPECT_EQ(compare(scratch, "b.exr --scene furnace_sphere -D albedo=0.2,0.3 --max-depth 2"), 2);
+}
+
+TEST(CompareCommand, AGreyImageAgainstAGreyAnswerIsJudgedOnce) {
+  const ScratchDirectory scratch;
+  const std::string grey = " -D albedo=0.75 -D radiance=4";
+  render(scratch, "sphere_light -o a.exr --spp 256" + grey);
+  const Outcome outcome = run_plumbline(scratch.path(), "compare a.exr --scene sphere_light");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+  EXPECT_NE(outcome.out.find("a.exr against sphere_light: image check gives pass, as expected"),
+            std::string::npos);
 }
 
 TEST(CompareCommand, StrategiesAgree) {

@@ -37,7 +37,7 @@ TEST(List, ShowsEachSceneWithItsAnswerAndParameters) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.out.find("furnace_open"), std::string::npos);
   EXPECT_NE(outcome.out.find("L = albedo * Le"), std::string::npos);
-  EXPECT_NE(outcome.out.find("-D albedo=0.75"), std::string::npos);
+  EXPECT_NE(outcome.out.find("-D albedo=0.9,0.75,0.4"), std::string::npos);
 }
 
 TEST(List, NamesAreForScripts) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <plumbline/analytic/camera.h>
+#include <plumbline/analytic/colour.h>
 #include <plumbline/analytic/pixel_oracle.h>
 
 /// The scenes whose answers are known: each is a scene file and a closed form of its image.
@@ -37,17 +38,18 @@ struct Expectation {
   std::string_view reason;  ///< one sentence; empty where a pass is expected
   /// Of one independent sample, where a closed form gives it; 0 where not. A light that samples
   /// seldom hit does not show in theirs.
-  double variance = 0;
+  Colour variance{};
 };
 
-/// A <default> of the scene file with the value it has there.
+/// A <default> of the scene file with the value it has there: a colour where its meaning says
+/// [rgb], else one number.
 struct Parameter {
   std::string_view name;
-  double value = 0;
+  Colour value;
   std::string_view meaning;  ///< with unit and range
 };
 
-using ParameterValues = std::map<std::string, double, std::less<>>;
+using ParameterValues = std::map<std::string, Colour, std::less<>>;
 
 /// Other parameters under which the scene is worth a check of its own.
 struct Variant {
@@ -92,6 +94,11 @@ const KnownScene& known_scene(std::string_view name);
 /// Path of the scene's XML file.
 /// @throws std::invalid_argument for an unknown name
 std::filesystem::path scene_file(std::string_view name);
+
+/// The parameters under which a scene is grey: every colour is what its green channel is. Its
+/// answer is then the green channel of the scene's own, for renderers in which the product of two
+/// colours is not that of their channels: those that render spectra.
+ParameterValues in_grey(const KnownScene& scene);
 
 /// The closed form of a scene's image.
 ///

@@ -3,14 +3,15 @@
 #include <vector>
 
 #include <plumbline/analytic/camera.h>
+#include <plumbline/analytic/colour.h>
 
 namespace plumbline::analytic {
 
 /// A closed form averaged over an area, with a bound on its numerical error.
 struct Average {
-  double value = 0;  ///< radiance [W/(m² sr)], the same in every colour channel
+  Colour value;  ///< radiance [W/(m² sr)]
   /// |value − truth| is at most this: rounding, plus quadrature where there is any.
-  double error = 0;
+  Colour error;
 };
 
 /// Axis-aligned rectangle in film coordinates [pixels]: x0 < x1 and y0 < y1.
@@ -38,7 +39,7 @@ class PixelOracle {
   Average image_mean() const;
 
   /// `pixel_mean` of every pixel, row by row from the top: width·height values.
-  std::vector<double> image() const;
+  std::vector<Colour> image() const;
 
  private:
   FilmSize film_;
