@@ -83,6 +83,7 @@ class PathSamples {
 template <std::size_t N>
 std::shared_ptr<PathSamples<N>> make_samples(const Scene& scene, const renderer::PathOptions& path,
                                              std::uint64_t seed, SamplerType sampler,
+                                             renderer::Backend backend,
                                              const std::array<Quantity, N>& quantities) {
   if (scene.camera().width() != 1 || scene.camera().height() != 1) {
     throw std::invalid_argument("samples of paths take a scene of one pixel");
@@ -91,6 +92,7 @@ std::shared_ptr<PathSamples<N>> make_samples(const Scene& scene, const renderer:
   options.path = path;
   options.seed = seed;
   options.sampler = sampler;
+  options.backend = backend;
   return std::make_shared<PathSamples<N>>(scene, std::move(options), quantities);
 }
 
@@ -106,9 +108,9 @@ renderer::SceneDescription one_pixel(renderer::SceneDescription scene) {
 }
 
 ColourSampler path_samples(const Scene& scene, const renderer::PathOptions& path,
-                           std::uint64_t seed, SamplerType sampler) {
+                           std::uint64_t seed, SamplerType sampler, renderer::Backend backend) {
   const auto samples =
-      make_samples<3>(scene, path, seed, sampler,
+      make_samples<3>(scene, path, seed, sampler, backend,
                       {[](const Rgbd& c) { return c.r; }, [](const Rgbd& c) { return c.g; },
                        [](const Rgbd& c) { return c.b; }});
   return
@@ -117,8 +119,8 @@ ColourSampler path_samples(const Scene& scene, const renderer::PathOptions& path
 
 verify::MomentSampler luminance_samples(const Scene& scene, const renderer::PathOptions& path,
                                         std::uint64_t seed, SamplerType sampler) {
-  const auto samples =
-      make_samples<1>(scene, path, seed, sampler, {[](const Rgbd& c) { return luminance(c); }});
+  const auto samples = make_samples<1>(scene, path, seed, sampler, renderer::Backend::batched,
+                                       {[](const Rgbd& c) { return luminance(c); }});
   return [samples](std::uint64_t first, std::uint64_t count) {
     return samples->draw(first, count)[0];
   };

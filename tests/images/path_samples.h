@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include <plumbline/renderer/assembly/description.h>
+#include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/core/render/path.h>
 #include <plumbline/verify/mean.h>
 #include "colour_check.h"
@@ -13,8 +14,8 @@ namespace plumbline::tests {
 /// independent, identically distributed samples with the mean of the whole image.
 renderer::SceneDescription one_pixel(renderer::SceneDescription scene);
 
-/// Samples of paths through the one pixel, channel by channel, by the backend that users get. Drawn
-/// in parallel, merged in a fixed order.
+/// Samples of paths through the one pixel, channel by channel, by the backend that users get
+/// unless another is asked for. Drawn in parallel, merged in a fixed order.
 ///
 /// Under Sobol one sample is the mean over a net of kNetSize paths with a scramble of its own: the
 /// paths of one net depend on each other, nets do not.
@@ -22,7 +23,8 @@ renderer::SceneDescription one_pixel(renderer::SceneDescription scene);
 /// @param scene  of `one_pixel`; must outlive the sampler
 ColourSampler path_samples(const renderer::Scene& scene, const renderer::PathOptions& path,
                            std::uint64_t seed,
-                           renderer::SamplerType sampler = renderer::SamplerType::independent);
+                           renderer::SamplerType sampler = renderer::SamplerType::independent,
+                           renderer::Backend backend = renderer::Backend::batched);
 
 /// The luminance of the same samples.
 verify::MomentSampler luminance_samples(

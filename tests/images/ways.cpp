@@ -56,7 +56,14 @@ std::string Way::name() const {
     text.append(" select-").append(renderer::name(selection));
   }
   if (by_solid_angle) text.append(" solid-angle");
+  if (backend == renderer::Backend::scalar) text.append(" scalar");
   return text;
+}
+
+bool Way::is_batched() const {
+  if (backend == renderer::Backend::scalar) return false;
+  return path.strategy == Strategy::bsdf || path.strategy == Strategy::light ||
+         (path.strategy == Strategy::mis && path.bsdf_samples == 1 && path.light_samples == 1);
 }
 
 PathOptions Way::options(const renderer::IntegratorDescription& integrator) const {
@@ -97,6 +104,29 @@ std::vector<Way> covering_ways() {
       {one_sample(Heuristic::power, 0.5f), SamplerType::sobol, Roulette::scene},
       {one_sample(Heuristic::cutoff, 0.2f), SamplerType::independent, Roulette::scene},
       {single(Strategy::average), SamplerType::independent, Roulette::scene}};
+}
+
+Weighting other_heuristic(const Way& way) {
+  const Weighting& own = way.path.heuristic;
+  return own.heuristic == Heuristic::power ? Heuristic::balance : Heuristic::power;
+}
+
+std::vector<Way> without_one_option(const Way& way) {
+  std::vector<Way> ways;
+  const auto add = [&](const auto& change) {
+    Way other = way;
+    change(other);
+    if (other.name() != way.name()) ways.push_back(other);
+  };
+  if (way.is_batched()) add([](Way& w) { w.backend = renderer::Backend::scalar; });
+  add([](Way& w) { w.sampler = SamplerType::independent; });
+  add([](Way& w) { w.selection = LightSelection::uniform; });
+  add([](Way& w) { w.by_solid_angle = false; });
+  add([](Way& w) { w.roulette = Roulette::scene; });
+  add([](Way& w) { w.path.bsdf_samples = 1; });
+  add([](Way& w) { w.path.light_samples = 1; });
+  add([](Way& w) { w.path.heuristic = other_heuristic(w); });
+  return ways;
 }
 
 std::vector<Way> representative_ways() {
