@@ -1,10 +1,16 @@
 #include <plumbline/renderer/image_io/exr.h>
 
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <vector>
 
 #include <plumbline/renderer/core/errors.h>
 
@@ -36,6 +42,36 @@ TEST_F(Exr, WhatIsWrittenIsReadBackBitForBit) {
   EXPECT_EQ(image.variance, small_image().variance);
   EXPECT_EQ(image.count, small_image().count);
   EXPECT_EQ(image.metadata.at("scene"), "furnace");
+}
+
+/// What OpenEXR finds in each channel of a file of 2 by 1 pixels: not by the reader above, which
+/// would undo what the writer mixed up.
+std::map<std::string, std::vector<float>> channels_of(const std::filesystem::path& path) {
+  Imf::InputFile file(path.c_str());
+  std::map<std::string, std::vector<float>> found;
+  Imf::FrameBuffer buffer;
+  const Imf::ChannelList& channels = file.header().channels();
+  for (auto it = channels.begin(); it != channels.end(); ++it) {
+    EXPECT_EQ(it.channel().type, Imf::FLOAT) << it.name();
+    std::vector<float>& values = found[it.name()];
+    values.resize(2);
+    buffer.insert(it.name(), Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()),
+                                        sizeof(float), 2 * sizeof(float)));
+  }
+  file.setFrameBuffer(buffer);
+  file.readPixels(0, 0);
+  return found;
+}
+
+TEST_F(Exr, EveryChannelHoldsWhatItsNameSays) {
+  const auto path = folder_ / "channels.exr";
+  Image image = small_image();
+  image.count = {16, 17};
+  write_exr(path, image);
+  const std::map<std::string, std::vector<float>> expected = {
+      {"R", {1, 0.25f}},      {"G", {2, 1e-30f}},     {"B", {3, 1e30f}},  {"variance.R", {4, 7}},
+      {"variance.G", {5, 8}}, {"variance.B", {6, 9}}, {"count", {16, 17}}};
+  EXPECT_EQ(channels_of(path), expected);
 }
 
 TEST_F(Exr, LayersThatAnImageLacksStayEmpty) {

@@ -28,5 +28,14 @@ TEST(AngleOf, IsRightToFloatInEveryQuadrantAndForSmallAngles) {
   EXPECT_EQ(angle_of<float>(0.0, 0.0), 0.0f);
 }
 
+TEST(Luminance, HasTheWeightsOfRec709) {
+  // ITU-R BT.709-6, Section 3.2; the sum is that of white.
+  EXPECT_EQ(luminance(Rgbd{1, 0, 0}), 0.2126);
+  EXPECT_EQ(luminance(Rgbd{0, 1, 0}), 0.7152);
+  EXPECT_EQ(luminance(Rgbd{0, 0, 1}), 0.0722);
+  EXPECT_EQ(luminance(Rgbf{0, 0, 1}), 0.0722f);
+  EXPECT_NEAR(luminance(Rgbd{1, 1, 1}), 1, 1e-15);
+}
+
 }  // namespace
 }  // namespace plumbline::renderer

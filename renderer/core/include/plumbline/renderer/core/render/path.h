@@ -28,8 +28,8 @@ inline constexpr int kNoRoulette = std::numeric_limits<int>::max();
 struct PathCounters {
   std::uint64_t camera_rays = 0;
   std::uint64_t bounce_rays = 0;  ///< rays that look for the nearest surface after the first vertex
-  std::uint64_t shadow_rays = 0;
-  std::uint64_t rejected = 0;  ///< samples that a BSDF or light could not make
+  std::uint64_t shadow_rays = 0;  ///< also those too short to be cast, to a light in contact
+  std::uint64_t rejected = 0;     ///< samples that a BSDF or light could not make
 
   PathCounters& operator+=(const PathCounters& other);
 };
