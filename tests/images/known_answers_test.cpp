@@ -190,9 +190,6 @@ WayVerdict verdict_of_way(Way way, int max_depth, const ChannelResults& results)
   return {way, {verdict_of(results[0]), verdict_of(results[1]), verdict_of(results[2])}};
 }
 
-/// How many of the ways that fail are asked again: more say little more.
-constexpr std::size_t kMostAskedAgain = 6;
-
 /// The verdict of a way that is asked again; undecided, which says nothing, after four million
 /// paths.
 WayVerdict ask_way(LoadedScene& loaded, const Way& way, const std::string& subject,
@@ -240,15 +237,11 @@ SceneVerdicts asked_again(const SceneCase& scene, LoadedScene& loaded,
     ways.push_back(ask_way(loaded, way, c.subject(), answer));
   };
   for (const Way& way : covering_ways()) ask(way);
-  std::vector<Way> wrong;
-  for (const WayVerdict& seen : ways) {
-    if (seen.wrong() && wrong.size() < kMostAskedAgain) wrong.push_back(seen.way);
-  }
-  for (const Way& way : wrong) {
-    for (const Way& other : without_one_option(way)) ask(other);
-  }
-  return {std::move(ways), loaded.max_depth() == 2,
-          first_wrong_depth(scene, loaded, wrong.front())};
+  for (const Way& way : ways_to_ask(ways)) ask(way);
+  const auto wrong =
+      std::find_if(ways.begin(), ways.end(), [](const WayVerdict& seen) { return seen.wrong(); });
+  const auto depth = first_wrong_depth(scene, loaded, wrong->way);
+  return {std::move(ways), loaded.max_depth() == 2, depth};
 }
 
 /// The part that all ways of a scene together say is wrong; empty where they say none, or none

@@ -58,7 +58,10 @@ Suspects of_options(bool one_bounce) {
          if (w.roulette == Way::Roulette::scene && !one_bounce) return Effect::either;
          return wrong_if(w.roulette == Way::Roulette::early);
        },
-       [](Way& w) { w.roulette = Way::Roulette::scene; }}};
+       [](Way& w) { w.roulette = Way::Roulette::scene; }},
+      {"the scalar backend: what the batched one traces is right",
+       [](const Way& w) { return wrong_if(!w.is_batched()); },
+       [](Way& w) { w.backend = Backend::batched; }}};
   for (const LightSelection selection : {LightSelection::power, LightSelection::area}) {
     std::string text("the choice of lights by ");
     text.append(renderer::name(selection)).append(": chosen otherwise they are right");
@@ -245,15 +248,40 @@ bool show_all(const Ways& ways) {
   return has(Strategy::light) && (has(Strategy::bsdf) || has(Strategy::uniform));
 }
 
-/// Whether ways that were traced once more by the scalar backend are all right there.
+/// Whether what fails batched, and was traced once more by the scalar backend, is all right there.
 bool batched_alone(const Ways& ways) {
-  const Ways scalar =
-      those(ways, [](const WayVerdict& w) { return w.way.backend == Backend::scalar; });
-  return !scalar.empty() &&
-         std::all_of(scalar.begin(), scalar.end(), [](const WayVerdict& w) { return w.right(); });
+  const Ways again = those(ways, [&](const WayVerdict& scalar) {
+    Way batched = scalar.way;
+    batched.backend = Backend::batched;
+    return scalar.way.backend == Backend::scalar &&
+           std::any_of(ways.begin(), ways.end(), [&](const WayVerdict& w) {
+             return w.wrong() && w.way.name() == batched.name();
+           });
+  });
+  return !again.empty() &&
+         std::all_of(again.begin(), again.end(), [](const WayVerdict& w) { return w.right(); });
 }
 
+/// How many of the ways that fail are asked again: more say little more.
+constexpr std::size_t kMostAskedAgain = 6;
+
 }  // namespace
+
+std::vector<Way> ways_to_ask(const std::vector<WayVerdict>& seen) {
+  const Ways wrong = those(seen, [](const WayVerdict& w) { return w.wrong(); });
+  std::vector<Way> ask;
+  for (std::size_t i = 0; i < std::min(wrong.size(), kMostAskedAgain); ++i) {
+    const std::vector<Way> others = without_one_option(wrong[i].way);
+    ask.insert(ask.end(), others.begin(), others.end());
+  }
+  const auto batched = [](const WayVerdict& w) { return w.way.is_batched(); };
+  if (std::any_of(wrong.begin(), wrong.end(), batched)) return ask;
+  for (const WayVerdict& right : those(seen, batched)) {
+    ask.push_back(right.way);
+    ask.back().backend = Backend::scalar;
+  }
+  return ask;
+}
 
 ChannelVerdict verdict_of(const verify::CheckResult& result) {
   ChannelVerdict seen{result.verdict, std::nullopt};

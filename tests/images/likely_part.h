@@ -38,6 +38,10 @@ struct SceneVerdicts {
   std::optional<int> first_wrong_depth;
 };
 
+/// What to ask a scene once more to tell parts from each other: ways that fail, without one option
+/// at a time; where none of them is batched, the batched ones by the scalar backend.
+std::vector<Way> ways_to_ask(const std::vector<WayVerdict>& seen);
+
 /// "the light samples: what uses them is off by a factor of 2 (1.98 to 2.03), …": the one part that
 /// explains all verdicts, the usual constant that is within the interval of every ratio if there is
 /// just one, the backend, the channel, the depth. Empty where nothing is wrong, or no part or more

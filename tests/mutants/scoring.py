@@ -134,9 +134,10 @@ def run_group(number, group, folder):
         text = log.read_bytes().decode(errors="replace")
         records = [json.loads(line) for path in pathlib.Path(results).glob("*.jsonl")
                    for line in path.read_text(errors="replace").splitlines() if line.startswith("{") and line.endswith("}")]
-    started = re.findall(r"^\[ RUN      \] (.+)$", text, re.MULTILINE)
-    name = started[-1] if started else group[0].filter
-    return next((t for t in group if t.filter == name), group[0]), how, text, records
+    # What fails says so; what crashes or hangs was the last to start.
+    names = (re.findall(r"^\[  FAILED  \] (\S+?),? .*ms\)$", text, re.MULTILINE)[:1] or
+             re.findall(r"^\[ RUN      \] (\S+)$", text, re.MULTILINE)[-1:])
+    return next((t for t in group if t.filter in names), group[0]), how, text, records
 
 
 def score(number, tests, folder, favoured, limit, most=20):
