@@ -122,22 +122,30 @@ def prepare(arguments):
     return chosen
 
 
+def stamp_of(binary, mutants):
+    """What the tests of a binary depend on: itself, and what the faults' numbers mean."""
+    stat = os.stat(binary)
+    meaning = hashlib.sha256(repr([(m.number, m.file, m.key()) for m in mutants]).encode()).hexdigest()
+    return f"{stat.st_size} {stat.st_mtime_ns} {meaning}"
+
+
 def learned_tests(mutants, jobs):
-    """The gate's tests with the places they reach, from an earlier run of the same build where there is one."""
+    """The gate's tests with the places they reach; of a binary that has not changed since, as an earlier run saw it."""
     tests = scoring.tests_of(tree.BUILD, LABELS)
-    stamp = hashlib.sha256(repr([(m.file, m.start, m.key(), m.number) for m in mutants]).encode())
-    for binary in sorted({t.binary for t in tests}):
-        stat = os.stat(binary)
-        stamp.update(f"{binary} {stat.st_size} {stat.st_mtime_ns}".encode())
-    kept = tree.WORK / "learned.json"
+    stamps = {binary: stamp_of(binary, mutants) for binary in {t.binary for t in tests}}
+    kept, known = tree.WORK / "learned.json", {}
     if kept.exists():
-        data = json.loads(kept.read_text())
-        if data["stamp"] == stamp.hexdigest():
-            return [scoring.Test(**{**t, "reached": bytes.fromhex(t["reached"])}) for t in data["tests"]]
-    print(f"running {len(tests)} tests without a fault", flush=True)
-    tests = scoring.learn(tests, tree.SOURCE, jobs)
-    kept.write_text(json.dumps({"stamp": stamp.hexdigest(), "tests": [
-        {**dataclasses.asdict(t), "reached": t.reached.hex()} for t in tests]}))
+        for record in json.loads(kept.read_text()):
+            known[record["test"]["name"], record["stamp"]] = record["test"]
+    same = [known.get((t.name, stamps[t.binary])) for t in tests]
+    fresh = [t for t, record in zip(tests, same) if record is None]
+    tests = [scoring.Test(**{**record, "reached": bytes.fromhex(record["reached"])}) for record in same if record]
+    if not fresh:
+        return tests
+    print(f"running {len(fresh)} tests without a fault", flush=True)
+    tests += scoring.learn(fresh, tree.SOURCE, jobs)
+    kept.write_text(json.dumps([{"stamp": stamps[t.binary], "test": {**dataclasses.asdict(t), "reached": t.reached.hex()}}
+                                for t in tests]))
     return tests
 
 
@@ -156,7 +164,8 @@ def score_all(faults, tests, arguments, results):
     if results.exists() and results.stat().st_mtime > (tree.WORK / "learned.json").stat().st_mtime:
         for line in results.read_text().splitlines():
             record = json.loads(line)
-            done[record["number"]] = record
+            if record["killed"] or record["exhausted"] or record.get("limit", 0) >= arguments.limit:
+                done[record["number"]] = record
     else:
         results.unlink(missing_ok=True)
     favoured, lock = {}, threading.Lock()
@@ -168,7 +177,7 @@ def score_all(faults, tests, arguments, results):
         verdict = scoring.score(record["number"], tests, tree.SOURCE, [name for name, _ in near], arguments.limit)
         if not verdict.killed and pictured[record["number"]]:
             record = {**record, "pictures_differ": scoring.fingerprint(program, record["number"], tree.SOURCE) != clean}
-        record = {**record, **dataclasses.asdict(verdict)}
+        record = {**record, **dataclasses.asdict(verdict), "limit": arguments.limit}
         with lock:
             if verdict.killed:
                 counts = favoured.setdefault(record["file"], {})
