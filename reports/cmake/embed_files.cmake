@@ -1,4 +1,5 @@
-# Turns files into a C++ source that holds them as text: -DOUTPUT, and -DINPUTS as name=path|name=path.
+# Turns files into a C++ source that holds them as text: -DOUTPUT, and -DINPUTS as name=path|name=path+path,
+# where several files of one name are joined.
 # Each becomes `const std::string_view name` in plumbline::reports::detail (declared in page_assets.h).
 string(REPLACE "|" ";" inputs "${INPUTS}")
 set(text "#include \"page_assets.h\"\n\nnamespace plumbline::reports::detail {\nnamespace {\n")
@@ -6,7 +7,12 @@ set(views "")
 foreach(input IN LISTS inputs)
   string(REGEX MATCH "^([a-z_]+)=(.*)$" matched "${input}")
   set(name "${CMAKE_MATCH_1}")
-  file(READ "${CMAKE_MATCH_2}" bytes HEX)
+  string(REPLACE "+" ";" files "${CMAKE_MATCH_2}")
+  set(bytes "")
+  foreach(file IN LISTS files)
+    file(READ "${file}" part HEX)
+    string(APPEND bytes "${part}")
+  endforeach()
   string(LENGTH "${bytes}" digits)
   math(EXPR size "${digits} / 2")
   string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${bytes}")

@@ -187,21 +187,6 @@ function groupBy(list, key) {
   return groups;
 }
 
-/** Adds a section to the page and its entry to the contents. */
-function addSection(id, title, count, about, ...children) {
-  document.querySelector('main').append(
-    element(
-      'section',
-      {id},
-      element('div', {className: 'section-head'}, element('h2', {}, title), element('p', {}, about)),
-      ...children,
-    ),
-  );
-  document
-    .getElementById('contents')
-    .append(element('a', {href: `#${id}`}, `${title} `, element('span', {}, String(count))));
-}
-
 // Intervals drawn in a table cell, all cells of a column on one axis.
 
 function makeScale(values, log) {

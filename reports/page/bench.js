@@ -3,10 +3,12 @@
 
 const kBarBadges = {met: 'pass', missed: 'fail wrong', open: 'inconclusive', indicative: 'fail'};
 
+const barLimit = (bar) => `${bar.at_least ? '≥' : '≤'} ${formatNumber(bar.limit, 4)}`;
+const barBadge = (bar) => element('span', {className: `badge ${kBarBadges[bar.verdict]}`}, bar.verdict);
+
 function addBars() {
   const {bars} = data;
   if (bars.length === 0) return;
-  const limit = (b) => `${b.at_least ? '≥' : '≤'} ${formatNumber(b.limit, 4)}`;
   const about = (b) => [b.comparison, b.note].filter(Boolean).join(' · ');
   const columns = [
     {
@@ -14,16 +16,22 @@ function addBars() {
       sort: (b) => b.name,
       cell: (b) => [element('strong', {}, b.name), element('div', {className: 'note'}, about(b))],
     },
-    {name: 'Bar', number: true, cell: limit},
+    {name: 'Bar', number: true, cell: barLimit},
     numberColumn('Measured', (b) => b.measured, (x) => formatAligned(x, 4)),
     {name: 'Interval', number: true, cell: (b) => formatInterval(b.low, b.high, 4)},
     textColumn('Unit', (b) => b.unit),
-    {name: 'Verdict', cell: (b) => element('span', {className: `badge ${kBarBadges[b.verdict]}`}, b.verdict)},
+    {name: 'Verdict', cell: barBadge},
   ];
-  addSection('bars', 'Benchmarks against their bars', bars.length,
-    'Met or missed: the whole interval (95 % where no other is named) lies on one side of the bar; open: the bar is ' +
-    'inside. Indicative: measured on less than the bar asks for, as the one-minute benchmarks are; ' +
-    './run bench --full measures it.', sortableTable(columns, bars));
+  addView({
+    id: 'bars',
+    group: 'Speed',
+    title: 'Bars',
+    count: bars.length,
+    about: 'Benchmarks against their bars. Met or missed: the whole interval (95 % where no other is named) lies on one ' +
+      'side of the bar; open: the bar is inside. Indicative: measured on less than the bar asks for, as the one-minute ' +
+      'benchmarks are; ./run bench --full measures it.',
+    make: () => [sortableTable(columns, bars)],
+  });
 }
 
 // What verdicts cost
@@ -31,6 +39,16 @@ function addBars() {
 function addVerdictCost() {
   const checks = data.checks.filter((c) => toNumber(c.seconds) > 0);
   if (checks.length === 0) return;
+  addView({
+    id: 'verdict-cost',
+    group: 'Speed',
+    title: 'Cost of a verdict',
+    about: 'Time and samples that the checks took, by kind, and the ten dearest of them.',
+    make: () => [verdictCost(checks)],
+  });
+}
+
+function verdictCost(checks) {
   const sum = (list, get) => list.reduce((total, c) => total + toNumber(get(c)), 0);
   const kinds = [...groupBy(checks, (c) => c.check)].map(([kind, list]) => {
     const times = list.map((c) => toNumber(c.seconds)).sort((a, b) => a - b);
@@ -61,8 +79,6 @@ function addVerdictCost() {
     numberColumn('ns per sample', (c) => (1e9 * toNumber(c.seconds)) / c.samples, (x) => formatAligned(x, 3)),
   ];
   const card = (title, table) => element('div', {className: 'card'}, element('h3', {}, title), table);
-  addSection('verdict-cost', 'Cost of a verdict', checks.length,
-    'Time and samples that the checks took, by kind, and the ten dearest of them.',
-    element('div', {}, card('By kind', sortableTable(kindColumns, kinds)),
-      card('The ten dearest', sortableTable(checkColumns, dearest))));
+  return element('div', {}, card('By kind', sortableTable(kindColumns, kinds)),
+    card('The ten dearest', sortableTable(checkColumns, dearest)));
 }

@@ -44,6 +44,21 @@ const twinColumns = [
 function addCauses() {
   const twins = data.causes.flatMap((record) => record.twins.map((t) => ({...t, set: record.set})));
   if (twins.length === 0) return;
+  const score = ({set, seed, twins: list}) =>
+    `${set} set ${list.filter(wasRight).length} of ${list.length} (seed ${seed})`;
+  addView({
+    id: 'causes',
+    group: 'Quality',
+    title: 'Causes named',
+    count: twins.length,
+    about: 'Code with one fault put in, by its cause: whether the diagnosis names the right one, a wrong one or none, ' +
+      'and faults that no check has found. Several names for the same count as one. ' +
+      `Right: ${data.causes.map(score).join(', ')}. A row opens to show its twins, those named wrongly first.`,
+    make: () => [causesTable(twins)],
+  });
+}
+
+function causesTable(twins) {
   const heading = ['Cause put in', 'Twins', 'Right', 'Wrong', 'None', 'Missed', 'Wrongly named'];
   const body = element('tbody');
   for (const [cause, list] of [...groupBy(twins, (t) => t.expected)].sort((a, b) => naturalOrder(a[0], b[0]))) {
@@ -58,11 +73,5 @@ function addCauses() {
   body.append(element('tr', {className: 'total'}, element('td', {}, 'all'), causeCells(twins)));
   const head = element('thead', {}, element('tr', {}, heading.map((text, i) =>
     element('th', {scope: 'col', className: i > 0 && i < heading.length - 1 ? 'number' : null}, text))));
-  const score = ({set, seed, twins: list}) =>
-    `${set} set ${list.filter(wasRight).length} of ${list.length} (seed ${seed})`;
-  addSection('causes', 'Causes named', twins.length,
-    'Code with one fault put in, by its cause: whether the diagnosis names the right one, a wrong one or none, and ' +
-    'faults that no check has found. Several names for the same count as one. ' +
-    `Right: ${data.causes.map(score).join(', ')}. A row opens to show its twins, those named wrongly first.`,
-    element('div', {className: 'scroll'}, element('table', {className: 'causes'}, head, body)));
+  return element('div', {className: 'scroll'}, element('table', {className: 'causes'}, head, body));
 }

@@ -42,79 +42,10 @@ const checkColumns = [
   textColumn('Leaned on', (c) => c.leaned_on, {className: 'wrap muted'}),
 ];
 
-function fact(name, value) {
-  return value === '–' || value === '' ? null : element('div', {}, element('dt', {}, name), element('dd', {}, value));
-}
-
-function copyButton(text) {
-  const button = element('button', {
-    type: 'button',
-    onclick: async () => {
-      try {
-        await navigator.clipboard.writeText(text);
-        button.textContent = 'Copied';
-      } catch {
-        button.textContent = 'Select it';
-      }
-    },
-  }, 'Copy');
-  return button;
-}
-
-/** The bins of a chi-square test in the square of the domain's chart, by how many samples they hold of those expected. */
-function binMap(bins) {
-  const size = 240;
-  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  svg.setAttribute('viewBox', `0 0 ${size} ${size}`);
-  svg.setAttribute('class', 'bins');
-  svg.setAttribute('role', 'img');
-  svg.setAttribute('aria-label', 'Samples in each bin against those expected');
-  for (const [x0, x1, y0, y1, expected, error, observed] of bins) {
-    const rect = document.createElementNS('http://www.w3.org/2000/svg', 'rect');
-    const ratio = Math.log2((observed + 0.5) / (expected + 0.5));
-    const box = {x: size * x0, y: size * (1 - y1), width: size * (x1 - x0), height: size * (y1 - y0)};
-    for (const [name, value] of Object.entries(box)) rect.setAttribute(name, value);
-    rect.setAttribute('class', ratio > 0 ? 'more' : 'fewer');
-    rect.setAttribute('fill-opacity', Math.min(1, Math.abs(ratio)));
-    const title = document.createElementNS('http://www.w3.org/2000/svg', 'title');
-    title.textContent = `${observed} samples, ${formatNumber(expected, 6)} ± ${formatNumber(error, 2)} expected`;
-    rect.append(title);
-    svg.append(rect);
-  }
-  return element('figure', {className: 'bin-map'}, svg,
-    element('figcaption', {}, 'The bins in the square of the domain’s chart: more samples than the pdf says, or fewer; in full at twice and half'));
-}
-
 function checkDetails(check) {
-  const why = check.reason || (check.as_expected ? '' : `Expected ${check.expected}, got ${check.verdict}.`);
-  return element(
-    'tr',
-    {className: `details${check.as_expected ? '' : ' unexpected'}`},
-    element(
-      'td',
-      {colspan: checkColumns.length},
-      why ? element('p', {className: 'why'}, why) : null,
-      check.advice ? element('p', {className: 'why'}, check.advice) : null,
-      check.waived ? element('p', {className: 'why'}, `Waived: ${check.waived}`) : null,
-      check.diagnosis ? element('p', {className: 'diagnosis'}, check.diagnosis) : null,
-      check.bins ? binMap(check.bins) : null,
-      element(
-        'dl',
-        {className: 'facts'},
-        fact('99.9 % interval', formatInterval(check.interval_low, check.interval_high, 6)),
-        fact('Tolerance', formatNumber(check.tolerance, 4)),
-        fact('Proven bound, absolute', formatNumber(check.bound, 4)),
-        fact('Detectable, absolute', formatNumber(check.detectable, 4)),
-        fact('p-value', formatNumber(check.p_value, 3)),
-        fact('Samples', check.samples.toLocaleString('en')),
-        fact('Seed', check.seed),
-        check.figures.map(([name, value]) => fact(name, formatNumber(value, 6))),
-      ),
-      check.replay
-        ? element('div', {className: 'replay'}, element('code', {}, check.replay), copyButton(check.replay))
-        : null,
-    ),
-  );
+  return element('tr', {className: `details${check.as_expected ? '' : ' unexpected'}`},
+    element('td', {colspan: checkColumns.length}, checkReport(check),
+      element('p', {className: 'back'}, element('a', {href: checkAddress(check)}, 'Link to this check'))));
 }
 
 function checkRow(check) {
@@ -141,6 +72,10 @@ function suiteSummary(checks) {
 
 /** Above this many checks, suites in which nothing is unexpected start closed. */
 const kOpenAtStart = 60;
+
+/** Rows of one suite that are made without being asked for, and details opened without a click. */
+const kRowsAtOnce = 200;
+const kDetailsAtOnce = 5;
 
 class CheckTable {
   constructor(checks) {
@@ -235,75 +170,50 @@ class CheckTable {
     );
     const body = element('tbody', {}, heading);
     if (!open) return body;
-    for (const check of this.sorted(checks)) {
-      const {row, open: openDetails} = checkRow(check);
-      body.append(row);
-      if (!check.as_expected) openDetails();
-    }
+    const sorted = this.sorted(checks);
+    this.addRows(body, sorted.slice(0, kRowsAtOnce));
+    if (sorted.length > kRowsAtOnce) body.append(this.moreRow(body, sorted.slice(kRowsAtOnce)));
     return body;
+  }
+
+  addRows(body, checks) {
+    checks.forEach((check, index) => {
+      const {row, open} = checkRow(check);
+      body.append(row);
+      if (!check.as_expected && index < kDetailsAtOnce) open();
+    });
+  }
+
+  moreRow(body, checks) {
+    const row = element('tr', {}, element('td', {colspan: checkColumns.length}, element('button', {
+      type: 'button',
+      className: 'more-rows',
+      onclick: () => {
+        row.remove();
+        this.addRows(body, checks.slice(0, 5 * kRowsAtOnce));
+        if (checks.length > 5 * kRowsAtOnce) body.append(this.moreRow(body, checks.slice(5 * kRowsAtOnce)));
+      },
+    }, `${checks.length} more`)));
+    return row;
   }
 }
 
 function addChecks() {
-  if (data.checks.length === 0) return null;
-  const table = new CheckTable(data.checks);
-  addSection('checks', 'Checks', data.checks.length,
-    'A pass proves a bound on the bias, a fail proves a difference, anything else is inconclusive. ' +
-    'Each check declares the verdict it must give; a row opens on a click.', ...table.node());
-  return table;
-}
-
-function addVarianceRatios() {
-  const ratios = data.checks.filter((c) => c.check === 'variance_ratio');
-  if (ratios.length === 0) return;
-  const scale = makeScale(ratios.flatMap((c) => [c.estimate, c.interval_low, c.interval_high]), true);
-  const columns = [
-    textColumn('Suite', suiteOf),
-    textColumn('Compared', nameInSuite, {className: 'mono'}),
-    numberColumn('Ratio', (c) => c.estimate, (x) => formatAligned(x, 3)),
-    {
-      name: '99.9 % interval',
-      number: true,
-      cell: (c) => formatInterval(c.interval_low, c.interval_high),
+  if (data.checks.length === 0) return;
+  let table = null;
+  addView({
+    id: 'checks',
+    group: 'Verdict',
+    title: 'Checks',
+    count: data.checks.length,
+    about: 'A pass proves a bound on the bias, a fail proves a difference, anything else is inconclusive. ' +
+      'Each check declares the verdict it must give; a row opens on a click.',
+    make: () => {
+      table = new CheckTable(data.checks);
+      return table.node();
     },
-    intervalColumn('', scale, (c) => ({low: c.interval_low, value: c.estimate, high: c.interval_high})),
-    {name: 'Verdict', sort: (c) => c.verdict, cell: verdictBadge},
-    numberColumn('Samples', (c) => c.samples, formatCount),
-  ];
-  addSection('variance', 'Variance ratios', ratios.length,
-    'Variance of the first estimator over that of the second, equal samples. At 1 they are equally good; ' +
-    'an interval that does not touch 1 is a difference.', sortableTable(columns, ratios));
-}
-
-// What the checks claim about themselves, measured: rows of `plumbline calibrate`.
-
-const calibrationTables = {
-  'p-values of correct code': 'Share of p-values below the level tested: uniform p-values, or a level is not what it says.',
-  'false failures': 'Share of runs of a correct but skewed estimator that fail.',
-  'detection': 'Share of runs that find an error as large as the check promises to find in 99 of 100.',
-  'coverage': 'Share of intervals that hold the true ratio of two variances.',
-  'same code twice': 'Share of runs that claim a difference between identical things.',
-};
-
-function addCalibration() {
-  const rows = data.checks.filter((c) => c.check === 'calibration');
-  if (rows.length === 0) return;
-  const part = (check, index) => check.subject.split('/')[index];
-  const figure = (check, name) => check.figures.find(([key]) => key === name)?.[1];
-  const columns = [
-    textColumn('', (c) => c.subject.split('/').slice(2).join('/')),
-    numberColumn('Runs', (c) => c.samples, formatCount),
-    numberColumn('Measured', (c) => c.estimate, (x) => formatNumber(x, 4)),
-    {name: '99.9 % interval', number: true, cell: (c) => formatInterval(c.interval_low, c.interval_high)},
-    {name: 'Must lie in', number: true, cell: (c) => formatInterval(figure(c, 'at least'), figure(c, 'at most'))},
-    {name: 'Verdict', sort: (c) => c.verdict, cell: verdictBadge},
-  ];
-  const tables = [...groupBy(rows, (c) => part(c, 1))].flatMap(([name, group]) => [
-    element('h3', {}, name),
-    element('p', {className: 'muted'}, calibrationTables[name] ?? ''),
-    sortableTable(columns, group),
-  ]);
-  addSection('calibration', 'Calibration and power', rows.length,
-    'The checks on code whose answer is known: how often they fail what is right, and how often they find what is wrong. ' +
-    'A pass proves that the true rate lies in the range; controls, tests known to be badly calibrated, must fail.', ...tables);
+    open: (section, [kind]) => {
+      if (kind && table.kinds.includes(kind)) table.showAll(kind);
+    },
+  });
 }

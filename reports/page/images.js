@@ -1,13 +1,21 @@
 
-// Rendered images: linear floats drawn on a canvas under an exposure that a group shares.
+// Rendered images: linear floats drawn on a canvas; any two of a scene on either side of a slider.
 
-function decodeFloats(base64) {
+function bytesOf(base64) {
   const text = atob(base64);
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+/** The values of an image, decoded when they are first asked for. */
+async function floatsOf(image) {
+  if (image.floats) return image.floats;
+  const bytes = bytesOf(image.data);
   const view = new DataView(bytes.buffer);
   const floats = new Float32Array(bytes.length / 4);
   for (let i = 0; i < floats.length; ++i) floats[i] = view.getFloat32(4 * i, true);
+  image.floats = floats;
   return floats;
 }
 
@@ -19,7 +27,10 @@ function encodeSrgb(linear) {
 }
 
 /** Pixels that are not finite are shown in magenta, so that they are seen. */
-function paint(context, image, stops) {
+function paint(canvas, image, stops) {
+  canvas.width = image.width;
+  canvas.height = image.height;
+  const context = canvas.getContext('2d');
   const gain = 2 ** stops;
   const target = context.createImageData(image.width, image.height);
   for (let i = 0; i < image.width * image.height; ++i) {
@@ -31,10 +42,10 @@ function paint(context, image, stops) {
   context.putImageData(target, 0, 0);
 }
 
-/** Stops that bring the bright part of the group (its 98th percentile) to just below white. */
+/** Stops that bring the bright part of the images (their 98th percentile) to just below white. */
 function startingExposure(images) {
   const bright = images.map(({floats}) => {
-    const finite = [...floats].filter(Number.isFinite).sort((a, b) => a - b);
+    const finite = floats.filter(Number.isFinite).sort();
     return finite[Math.floor(0.98 * (finite.length - 1))] ?? 0;
   });
   const brightest = Math.max(...bright);
@@ -42,81 +53,129 @@ function startingExposure(images) {
   return Math.max(-10, Math.min(10, Math.floor(2 * Math.log2(0.9 / brightest)) / 2));
 }
 
-class Picture {
-  constructor(image, aimed) {
-    this.image = {...image, floats: decodeFloats(image.data)};
-    this.canvas = element('canvas', {
-      width: image.width,
-      height: image.height,
-      role: 'img',
-      'aria-label': `${image.group}, ${image.name}`,
-      onmousemove: (event) => aimed(this.pixelUnder(event)),
-      onmouseleave: () => aimed(null),
-    });
-    this.aim = element('div', {className: 'aim'});
-    this.value = element('span', {className: 'value'}, `${image.width} × ${image.height}`);
+const kZooms = [1, 2, 4, 8, 16];
+const kWidest = 8192;  // of a canvas on the page [CSS pixels]
+
+/** Pictures of one scene: two at a time, with a slider between them, an exposure, and a zoom to single pixels. */
+class Comparison {
+  constructor(name, images) {
+    this.name = name;
+    this.images = images;
+    const named = (part) => images.findIndex((image) => image.name.startsWith(part));
+    const right = Math.max(0, named('mis'));
+    const left = Math.max(named('bsdf'), images.length > 1 && right === 0 ? 1 : 0);
+    this.chosen = [images[left], images[right]];
+    this.split = 50;
+    this.canvases = [0, 1].map(() => element('canvas', {role: 'img', 'aria-label': `${nameOf(name)}, rendered`}));
+    this.canvases[1].classList.add('over');
+    this.line = element('div', {className: 'split-line'});
+    this.stack = element('div', {
+      className: 'stack',
+      onpointermove: (event) => this.read(event),
+      onpointerleave: () => this.describe(),
+    }, this.canvases, this.comparable() ? this.line : null);
+    this.reading = element('p', {className: 'value', role: 'status'});
+  }
+
+  comparable() {
+    return this.images.length > 1;
   }
 
   node() {
-    return element('figure', {className: 'picture'},
-      element('div', {className: 'canvas'}, this.canvas, this.aim),
-      element('figcaption', {}, element('span', {}, this.image.name), this.value));
+    const caption = this.comparable()
+      ? element('div', {className: 'sides'}, this.chooser(0), this.chooser(1))
+      : element('p', {className: 'muted'}, this.images[0].name);
+    const controls = element('div', {className: 'controls'}, this.exposureSlider(), this.zoomButtons());
+    const result = element('div', {className: 'comparison'}, caption,
+      element('div', {className: 'window'}, this.stack), this.comparable() ? this.splitSlider() : null, this.reading, controls);
+    this.start();
+    return result;
   }
 
-  draw(stops) {
-    paint(this.canvas.getContext('2d'), this.image, stops);
+  async start() {
+    await Promise.all(this.images.map(floatsOf));
+    this.stops = startingExposure(this.images);
+    this.exposure.value = this.stops;
+    this.draw();
   }
 
-  pixelUnder(event) {
-    const box = this.canvas.getBoundingClientRect();
-    const clamp = (x, size) => Math.max(0, Math.min(size - 1, Math.floor(x)));
-    return {
-      x: clamp(((event.clientX - box.left) / box.width) * this.image.width, this.image.width),
-      y: clamp(((event.clientY - box.top) / box.height) * this.image.height, this.image.height),
-    };
+  draw() {
+    this.canvases.forEach((canvas, side) => paint(canvas, this.chosen[side], this.stops));
+    this.exposureLabel.textContent = `${this.stops > 0 ? '+' : ''}${minus(this.stops.toFixed(1))} EV`;
+    this.drawSplit();
+    this.describe();
   }
 
-  show(pixel) {
-    const {width, height, floats} = this.image;
-    const inside = pixel && pixel.x < width && pixel.y < height;
-    this.aim.style.display = inside ? 'block' : 'none';
-    if (!inside) {
-      this.value.textContent = `${width} × ${height}`;
-      return;
-    }
-    const side = this.canvas.clientWidth / width;
-    const box = Math.max(side, 6);
-    this.aim.style.width = this.aim.style.height = `${box}px`;
-    this.aim.style.left = `${(pixel.x + 0.5) * side - box / 2}px`;
-    this.aim.style.top = `${(pixel.y + 0.5) * side - box / 2}px`;
-    const first = 3 * (pixel.y * width + pixel.x);
-    const rgb = [...floats.subarray(first, first + 3)].map((v) => formatNumber(v, 4));
-    this.value.textContent = `(${pixel.x}, ${pixel.y})  ${rgb.join(' ')}`;
+  drawSplit() {
+    const split = this.comparable() ? this.split : 0;
+    this.canvases[1].style.clipPath = `inset(0 0 0 ${split}%)`;
+    this.line.style.left = `${split}%`;
+  }
+
+  chooser(side) {
+    return element('select', {
+      'aria-label': side === 0 ? 'Picture on the left' : 'Picture on the right',
+      onchange: (event) => {
+        this.chosen[side] = this.images[event.target.selectedIndex];
+        this.draw();
+      },
+    }, this.images.map((image) => element('option', {selected: image === this.chosen[side]}, image.name)));
+  }
+
+  splitSlider() {
+    return element('input', {
+      type: 'range', className: 'split', min: 0, max: 100, step: 0.5, value: this.split, 'aria-label': 'Between the two pictures',
+      oninput: (event) => {
+        this.split = event.target.valueAsNumber;
+        this.drawSplit();
+      },
+    });
+  }
+
+  exposureSlider() {
+    this.exposureLabel = element('output', {});
+    this.exposure = element('input', {
+      type: 'range', min: -10, max: 10, step: 0.5, 'aria-label': 'Exposure',
+      oninput: (event) => {
+        this.stops = event.target.valueAsNumber;
+        this.draw();
+      },
+    });
+    return element('label', {className: 'exposure'}, 'Exposure', this.exposure, this.exposureLabel);
+  }
+
+  zoomButtons() {
+    const buttons = kZooms.map((zoom) => element('button', {
+      type: 'button', 'aria-pressed': String(zoom === 1),
+      onclick: (event) => {
+        this.stack.style.width = `min(${100 * zoom}%, ${kWidest}px)`;
+        for (const button of buttons) button.setAttribute('aria-pressed', String(button === event.target));
+      },
+    }, `${zoom}×`));
+    return element('div', {className: 'chips', role: 'group', 'aria-label': 'Zoom'}, buttons);
+  }
+
+  describe() {
+    const {width, height} = this.chosen[1];
+    this.reading.textContent = `${width} × ${height}; point at a pixel to read it`;
+  }
+
+  read(event) {
+    const box = this.stack.getBoundingClientRect();
+    const across = (event.clientX - box.left) / box.width;
+    const down = (event.clientY - box.top) / box.height;
+    const values = (this.comparable() ? this.chosen : [this.chosen[1]]).map((image) => pixelText(image, across, down));
+    this.reading.textContent = values.join('   |   ');
   }
 }
 
-function pictureGroup(name, images) {
-  const pictures = [];
-  const aimed = (pixel) => pictures.forEach((picture) => picture.show(pixel));
-  for (const image of images) pictures.push(new Picture(image, aimed));
-  const start = startingExposure(pictures.map((p) => p.image));
-  const label = element('output', {});
-  const draw = (stops) => {
-    label.textContent = `${stops > 0 ? '+' : ''}${minus(stops.toFixed(1))} EV`;
-    pictures.forEach((picture) => picture.draw(stops));
-  };
-  const slider = element('input', {
-    type: 'range', min: -10, max: 10, step: 0.5, value: start, title: 'Double-click: back to the start',
-    oninput: () => draw(slider.valueAsNumber),
-    ondblclick: () => {
-      slider.value = start;
-      draw(start);
-    },
-  });
-  draw(start);
-  return element('div', {className: 'card'}, element('h3', {}, name),
-    element('div', {className: 'pictures'}, pictures.map((picture) => picture.node())),
-    element('label', {className: 'exposure'}, 'Exposure', slider, label));
+function pixelText({width, height, floats}, across, down) {
+  if (!floats) return '';
+  const clamp = (x, size) => Math.max(0, Math.min(size - 1, Math.floor(x * size)));
+  const [x, y] = [clamp(across, width), clamp(down, height)];
+  const first = 3 * (y * width + x);
+  const rgb = [...floats.subarray(first, first + 3)].map((v) => formatNumber(v, 3));
+  return `(${x}, ${y}) ${rgb.join(' ')}`;
 }
 
 const badCount = (count) =>
@@ -126,7 +185,7 @@ function renderTable() {
   const perPath = (r) => (r.camera_rays + r.bounce_rays + r.shadow_rays) / r.camera_rays;
   const parameters = (r) => Object.entries(r.parameters).map(([k, v]) => `${k}=${v}`).join(' ');
   const columns = [
-    textColumn('Scene', (r) => r.scene),
+    textColumn('Scene', (r) => nameOf(r.scene)),
     textColumn('Strategy', (r) => r.strategy),
     textColumn('Heuristic', (r) => r.heuristic || '–'),
     textColumn('Parameters', (r) => parameters(r) || '–'),
@@ -141,13 +200,4 @@ function renderTable() {
     textColumn('Seed', (r) => r.seed, {number: true}),
   ];
   return sortableTable(columns, data.renders.filter((r) => r.camera_rays > 0));  // the others are maps
-}
-
-function addImages() {
-  if (data.images.length === 0 && data.renders.length === 0) return;
-  const groups = [...groupBy(data.images, (image) => image.group)];
-  addSection('images', 'Rendered images', data.images.length,
-    'Linear values; point at a pixel to read it, in all images of the scene at once.',
-    element('div', {className: 'groups'}, groups.map(([name, images]) => pictureGroup(name, images))),
-    data.renders.some((r) => r.camera_rays > 0) ? renderTable() : null);
 }

@@ -113,7 +113,7 @@ function chartOptions(x, y) {
 const charts = [];
 
 /**
- * A canvas whose chart is made again when the colour scheme changes.
+ * A canvas whose chart is made when its view is first shown, and again when the colour scheme changes.
  * @param redraw  receives what draws the chart anew
  */
 function plot(makeDatasets, x, y, label, {legend = true, redraw = () => {}} = {}) {
@@ -131,13 +131,23 @@ function plot(makeDatasets, x, y, label, {legend = true, redraw = () => {}} = {}
       plugins: [intervalBars],
     });
   };
-  charts.push(draw);
+  charts.push({canvas, draw, stale: true});
   redraw(draw);
   return element('div', {className: 'plot'}, canvas);
 }
 
+/** Draws what is in the view shown and not yet drawn. */
 function drawCharts() {
-  charts.forEach((draw) => draw());
+  for (const chart of charts) {
+    if (!chart.stale || chart.canvas.offsetParent === null) continue;
+    chart.draw();
+    chart.stale = false;
+  }
+}
+
+function redrawCharts() {
+  for (const chart of charts) chart.stale = true;
+  drawCharts();
 }
 
 // Error against time
@@ -282,10 +292,15 @@ function replicates(scene) {
 function addSpeed() {
   if (data.speed.length === 0) return;
   const samplers = new Set(data.speed.flatMap((s) => s.curves.map((c) => c.sampler))).size;
-  addSection('speed', 'Error against time', data.speed.length,
-    'Lower and further left is better; the boxes show or hide curves. Bars: 95 % intervals over independent ' +
-    'replicates. Lines: the fitted power law; a plain Monte Carlo estimator falls with slope −1/2.',
-    element('div', {}, data.speed.map((scene) => speedCard(scene, samplers))));
+  addView({
+    id: 'speed',
+    group: 'Speed',
+    title: 'Error against time',
+    count: data.speed.length,
+    about: 'Lower and further left is better; the boxes show or hide curves. Bars: 95 % intervals over independent ' +
+      'replicates. Lines: the fitted power law; a plain Monte Carlo estimator falls with slope −1/2.',
+    make: () => data.speed.map((scene) => speedCard(scene, samplers)),
+  });
 }
 
 // What shadow rays cost
@@ -305,9 +320,15 @@ function addRayCosts() {
     {name: '95 % interval', number: true, cell: (c) => formatInterval(c.ratio_low, c.ratio_high)},
     intervalColumn('', scale, (c) => ({low: c.ratio_low, value: c.ratio, high: c.ratio_high})),
   ];
-  addSection('shadow-rays', 'Cost of shadow rays', costs.length,
-    'The same recorded rays, asked whether anything is in the way (rtcOccluded) and what is nearest ' +
-    '(rtcIntersect), interleaved. Time per ray, and the ratio of the two.', sortableTable(columns, costs));
+  addView({
+    id: 'shadow-rays',
+    group: 'Speed',
+    title: 'Shadow rays',
+    count: costs.length,
+    about: 'The same recorded rays, asked whether anything is in the way (rtcOccluded) and what is nearest ' +
+      '(rtcIntersect), interleaved. Time per ray, and the ratio of the two.',
+    make: () => [sortableTable(columns, costs)],
+  });
 }
 
 // Figures
@@ -347,16 +368,28 @@ function plainTable({columns, rows}) {
     element('thead', {}, cells('th', columns)), element('tbody', {}, rows.map((row) => cells('td', row)))));
 }
 
+const figureGroups = () => groupBy([...data.figures, ...data.tables], (item) => item.group);
+
+/** The name of the view of a group: its words, so that links outlive a new group. */
+const figureViewOf = (group) => `about-${group.toLowerCase().replace(/[^a-z0-9]+/g, '-')}`;
+
+function figureCards(items) {
+  const card = (item, content) => element('div', {className: 'card'}, element('h3', {}, item.title),
+    element('p', {className: 'caption'}, item.caption), content);
+  const tables = items.filter((item) => item.rows).map((item) => card(item, plainTable(item)));
+  const plots = items.filter((item) => item.series).map((item) =>
+    card(item, plot(() => figureDatasets(item), item.x_axis, item.y_axis, item.title)));
+  return element('div', {}, tables, element('div', {className: 'plots'}, plots));
+}
+
 function addFigures() {
-  let number = 0;
-  const all = [...data.figures, ...data.tables];
-  for (const [group, items] of groupBy(all, (item) => item.group)) {
-    const card = (item, content) => element('div', {className: 'card'}, element('h3', {}, item.title),
-      element('p', {className: 'caption'}, item.caption), content);
-    const tables = items.filter((item) => item.rows).map((item) => card(item, plainTable(item)));
-    const plots = items.filter((item) => item.series).map((item) =>
-      card(item, plot(() => figureDatasets(item), item.x_axis, item.y_axis, item.title)));
-    addSection(`figures-${++number}`, group, items.length, '',
-      element('div', {}, tables, element('div', {className: 'plots'}, plots)));
+  for (const [group, items] of figureGroups()) {
+    addView({
+      id: figureViewOf(group),
+      group: 'Measured',
+      title: group,
+      count: items.length,
+      make: () => [figureCards(items)],
+    });
   }
 }

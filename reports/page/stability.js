@@ -54,8 +54,7 @@ function stabilityRow(name, records) {
   return {row, open: stable ? null : toggle};
 }
 
-function addStability() {
-  if (data.stability.length === 0) return;
+function stabilityTable() {
   const heading = ['BSDF', ...kStabilityFunctions, 'Points', 'Ill-conditioned', 'Condition number'];
   const table = element('table', {className: 'stability'}, element('thead', {}, element('tr', {},
     heading.map((text, i) => element('th', {scope: 'col', className: i > 0 ? 'number' : null}, text)))));
@@ -70,11 +69,21 @@ function addStability() {
     }
     table.append(body);
   }
+  return element('div', {className: 'scroll'}, table);
+}
+
+function addStability() {
+  if (data.stability.length === 0) return;
   const tolerances = [...new Set(data.stability.map((r) => formatNumber(r.tolerance)))].join(', ');
-  addSection('stability', 'Numerical stability', data.stability.length,
-    'Float as rendered against the same code in quad precision at hard points: the largest relative error of each ' +
-    `function (of the sampled direction the absolute one). Bars run from half an ulp to the tolerance, ${tolerances}. ` +
-    'Ill-conditioned are points where one ulp of the inputs already changes the answer by as much; these show a ' +
-    'condition number instead, ∞ where one ulp decides whether there is a sample. A row opens to show the places.',
-    element('div', {className: 'scroll'}, table));
+  addView({
+    id: 'stability',
+    group: 'Quality',
+    title: 'Numerical stability',
+    count: data.stability.length,
+    about: 'Float as rendered against the same code in quad precision at hard points: the largest relative error of each ' +
+      `function (of the sampled direction the absolute one). Bars run from half an ulp to the tolerance, ${tolerances}. ` +
+      'Ill-conditioned are points where one ulp of the inputs already changes the answer by as much; these show a ' +
+      'condition number instead, ∞ where one ulp decides whether there is a sample. A row opens to show the places.',
+    make: () => [stabilityTable()],
+  });
 }

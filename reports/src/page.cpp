@@ -14,16 +14,7 @@ std::string part(std::string_view name, const PageInput& input) {
   if (name == "css") return std::string(detail::page_css);
   if (name == "data") return detail::page_data(input);
   if (name == "chart") return std::string(detail::chart_js);
-  if (name == "script") {
-    std::string script;
-    for (const std::string_view file :
-         {detail::page_base_js, detail::page_bench_js, detail::page_causes_js,
-          detail::page_checks_js, detail::page_images_js, detail::page_plots_js,
-          detail::page_stability_js, detail::page_main_js}) {
-      script += file;
-    }
-    return script;
-  }
+  if (name == "script") return std::string(detail::page_script);
   throw std::logic_error("index.html names an unknown part: " + std::string(name));
 }
 
