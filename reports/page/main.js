@@ -2,6 +2,7 @@
 // The order of the views.
 
 addOverview();
+addMatrix();
 addChecks();
 addCheckView();
 addImages();

@@ -15,3 +15,48 @@ function nameOf(name) {
   const sentence = words.replace(/^ggx\b/i, 'GGX').replace(/^mis\b/, 'MIS');
   return sentence.charAt(0).toUpperCase() + sentence.slice(1);
 }
+
+/** Kinds of things by the first part of a subject, in the order of the matrix; the first rule that fits holds. */
+const kKinds = [
+  ['BSDFs', /^([A-Z][a-z0-9]+)+$/],
+  ['Lights', /^(light|light selection|overlapping lights|direct light|environment map.*|sun and sky|sun not hit.*|BSDF samples beside.*)$/],
+  ['Warps and distributions', /^(warp|discrete distribution)$/],
+  ['Integrals and MIS weights', /^(combinations|optimal weights|mirror and lamp|rejecting technique|bad_gaussian.*|broad_times_peaked|peaked_times_peaked|sun_and_sidewalk|three_peaks|two_steps)$/],
+  ['Samplers', /^(sobol|independent|correlation of pixels|nets by the book|padded pairs|x y over.*|.* points?)$/],
+  ['Scene parameters', /^off default$/],
+  ['The checks themselves', /^(calibration|budget|waiver|bug|again|invariance|contribution weights|stochastic|correct)$/],
+  ['Rays and paths', /^(paths after.*|variance of images.*)$/],
+  ['Scenes', /^([a-z0-9]+|[a-z0-9]+(_[a-z0-9]+)+( .*)?)$/],
+  ['Others', /^/],
+];
+const kControls = 'Negative controls';
+
+/** What tells checks of one cell apart, not cells: angles, lobes, channels, the type of number. */
+function rowPart(part) {
+  if (/^(red|green|blue|float|lobe \d+|albedo at [\d.]+)$/.test(part)) return '';
+  return part.replace(/^(front|back) [\d.]+°?$/, '$1');
+}
+
+/**
+ * Where a check stands in the matrix: a kind of thing, one thing of that kind, and what was varied of it.
+ * @param subject   "GgxConductor/alpha 1/back 60°/integral"
+ * @param check     "integral", which a subject may repeat at its end
+ * @param expected  the verdict that is right: what must fail is a negative control
+ * @return          {kind: 'BSDFs', thing: 'GGX conductor', row: 'alpha 1 · back'}
+ */
+function placeOf({subject, check, expected}) {
+  const parts = subject.split(/(?<!\d)\/|\/(?!\d)/);  // but not in "eta 1/1.5"
+  if (parts.length > 1 && parts[parts.length - 1] === check) parts.pop();
+  const control = expected === 'fail' || parts[0] === 'control';
+  if (parts[0] === 'control') parts.shift();
+  const [first, ...rest] = parts;
+  const kind = kKinds.find(([, rule]) => rule.test(first))[0];
+  if (['light', 'warp', 'off default'].includes(first) && rest.length > 0) return makePlace(kind, rest[0], rest.slice(1), control);
+  const variant = first.match(/^([a-z]+_\S+|BSDF samples beside lights|paths) (.*)$/);  // "furnace_sphere depth 1"
+  return variant ? makePlace(kind, variant[1], [variant[2], ...rest], control) : makePlace(kind, first, rest, control);
+}
+
+function makePlace(kind, thing, rest, control) {
+  const row = rest.map(rowPart).filter(Boolean).join(' · ');
+  return {kind: control ? kControls : kind, thing: nameOf(thing), row: row || nameOf(thing)};
+}
