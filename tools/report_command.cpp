@@ -4,11 +4,13 @@
 #include <cerrno>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include <plumbline/analytic/known_scene.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/reports/page.h>
@@ -49,6 +51,14 @@ std::vector<reports::PageImage> pictures(reports::Results& results) {
     }
   }
   return images;
+}
+
+std::map<std::string, std::string> known_answers() {
+  std::map<std::string, std::string> answers;
+  for (const analytic::KnownScene& scene : analytic::known_scenes()) {
+    answers.emplace(scene.name, scene.answer);
+  }
+  return answers;
 }
 
 /// The checks of one suite: those whose subjects begin alike.
@@ -118,6 +128,7 @@ int run_report(const std::filesystem::path& results_dir, const std::filesystem::
     reports::PageInput input;
     input.results = reports::read_results(results_dir);
     input.images = pictures(input.results);
+    input.answers = known_answers();
     reports::write_page(input, output);
     const reports::Summary summary = reports::summarise(input.results);
     print_summary(input.results, summary);

@@ -2,7 +2,7 @@
 
 // What every section uses: the data, elements, numbers, tables.
 
-const data = JSON.parse(document.getElementById('data').textContent);
+let data = null;  // what the page shows; main.js unpacks it
 
 /** An element with properties and children; text is always text, never markup. */
 function element(tag, properties = {}, ...children) {

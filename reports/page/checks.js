@@ -156,7 +156,7 @@ class CheckTable {
 
   suite(name, checks) {
     const open = this.opened.get(name) ?? this.startsOpen(checks);
-    const button = element('button', {type: 'button', 'aria-expanded': String(open)}, name);
+    const button = element('button', {type: 'button', title: name, 'aria-expanded': String(open)}, nameOf(name));
     const heading = element(
       'tr',
       {

@@ -1,24 +1,6 @@
 
 // Rendered images: linear floats drawn on a canvas; any two of a scene on either side of a slider.
 
-function bytesOf(base64) {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  return bytes;
-}
-
-/** The values of an image, decoded when they are first asked for. */
-async function floatsOf(image) {
-  if (image.floats) return image.floats;
-  const bytes = bytesOf(image.data);
-  const view = new DataView(bytes.buffer);
-  const floats = new Float32Array(bytes.length / 4);
-  for (let i = 0; i < floats.length; ++i) floats[i] = view.getFloat32(4 * i, true);
-  image.floats = floats;
-  return floats;
-}
-
 /** The sRGB transfer function (IEC 61966-2-1), to 8 bits. */
 function encodeSrgb(linear) {
   if (!(linear > 0)) return 0;

@@ -17,9 +17,9 @@ function answerTable(checks) {
     {name: 'How', sort: nameInSuite, cell: (c) => element('a', {href: checkAddress(c)}, nameInSuite(c))},
     numberColumn('Answer', (c) => c.reference, (x) => formatAligned(x)),
     numberColumn('Estimate', (c) => c.estimate, (x) => formatAligned(x)),
-    {name: '99.9 % interval', number: true, cell: (c) => formatInterval(c.interval_low, c.interval_high, 5)},
     {name: 'Proven bound', number: true, cell: (c) => relativeToReference(c, c.bound)},
     {name: 'Verdict', sort: (c) => c.verdict, cell: verdictBadge},
+    {name: '99.9 % interval', number: true, cell: (c) => formatInterval(c.interval_low, c.interval_high, 5)},
   ];
   return sortableTable(columns, checks);
 }
@@ -27,6 +27,7 @@ function answerTable(checks) {
 function sceneCard(name, images, checks) {
   return element('article', {className: 'card scene'},
     element('h3', {}, nameOf(name), element('code', {className: 'aside'}, name)),
+    data.answers[sceneOf(name)] ? element('p', {className: 'formula mono'}, data.answers[sceneOf(name)]) : null,
     element('div', {className: 'scene-parts'},
       new Comparison(name, images).node(),
       checks.length > 0 ? answerTable(checks) : null));

@@ -1,20 +1,33 @@
 
-// The order of the views.
+// The start, and the order of the views.
 
-addOverview();
-addMatrix();
-addChecks();
-addCheckView();
-addImages();
-addBars();
-addSpeed();
-addRayCosts();
-addVerdictCost();
-addVarianceRatios();
-addCalibration();
-addStability();
-addCauses();
-addFigures();
-addSearch();
-startViews();
-matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redrawCharts);
+function addViews() {
+  addOverview();
+  addMatrix();
+  addChecks();
+  addCheckView();
+  addImages();
+  addBars();
+  addSpeed();
+  addRayCosts();
+  addVerdictCost();
+  addVarianceRatios();
+  addCalibration();
+  addStability();
+  addCauses();
+  addFigures();
+  addSearch();
+}
+
+async function start() {
+  data = await readData();
+  addViews();
+  startViews();
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redrawCharts);
+}
+
+start().catch((error) => {
+  document.querySelector('main').append(element('p', {className: 'notice', role: 'alert'},
+    `This page cannot be shown: ${error}. It needs a browser of 2023 or later.`));
+  throw error;
+});

@@ -31,9 +31,10 @@ function provenOf(check) {
 }
 
 function summariseCell(checks) {
-  const tones = new Set(checks.map(toneOf));
+  const counts = groupBy(checks, toneOf);
   const proven = checks.map(provenOf).filter(Number.isFinite);
-  return {tone: kCellTones.find((tone) => tones.has(tone)), proven: proven.length > 0 ? Math.max(...proven) : NaN};
+  const tone = kCellTones.find((t) => counts.has(t));
+  return {tone, counts, mixed: tone === 'inconclusive' && counts.has('pass'), proven: proven.length > 0 ? Math.max(...proven) : NaN};
 }
 
 /** From faint at 10 % to full at 0.001 %; what has no bound is exact, or not about a size. */
@@ -42,9 +43,11 @@ function strengthOf(proven) {
   return Math.max(0.3, Math.min(1, -Math.log10(proven) / 5));
 }
 
-function cellTitle(name, kind, checks, {tone, proven}) {
-  const bound = Number.isFinite(proven) ? `, at most ${formatPercent(proven)} off` : '';
-  return `${name}\n${kind}: ${kCellWords[tone]}${bound}, ${checks.length} ${checks.length === 1 ? 'check' : 'checks'}`;
+/** "GGX conductor · alpha 1\nmean: 58 proven, 2 rightly undecided; at most 0.12 % off" */
+function cellTitle(name, kind, checks, {counts, proven}) {
+  const words = kCellTones.filter((tone) => counts.has(tone)).map((tone) => `${counts.get(tone).length} ${kCellWords[tone]}`);
+  const bound = Number.isFinite(proven) ? `; at most ${formatPercent(proven)} off` : '';
+  return `${name}\n${kind.replaceAll('_', ' ')}: ${words.join(', ')}${bound}`;
 }
 
 function cellList(checks) {
@@ -75,7 +78,7 @@ function matrixCell(name, kind, checks, columns) {
   const summary = summariseCell(checks);
   const title = cellTitle(name, kind, checks, summary);
   return element('td', {}, element('button', {
-    type: 'button', className: `cell ${summary.tone}`, title, 'aria-label': title, 'aria-expanded': 'false',
+    type: 'button', className: `cell ${summary.tone}${summary.mixed ? ' mixed' : ''}`, title, 'aria-label': title, 'aria-expanded': 'false',
     style: summary.tone === 'pass' ? `--strength:${strengthOf(summary.proven)}` : null,
     onclick: (event) => toggleCell(event.currentTarget, checks, columns),
   }, kCellSigns[summary.tone]));

@@ -91,9 +91,9 @@ function barList() {
 
 /** What this project is about, in two scenes of the literature that need more than one technique. */
 const kShowpieces = {
-  veach: 'Veach’s plates: BSDF samples find the large lights in the smooth plates, light samples the small ones in the ' +
+  veach: 'BSDF samples find the large lights in the smooth plates, light samples the small ones in the ' +
     'rough. MIS weighs each by its density and has the noise of neither.',
-  cornell: 'The Cornell box: BSDF samples seldom meet the lamp, light samples aim at it. Both have the same mean; what ' +
+  cornell: 'BSDF samples seldom meet the lamp, light samples aim at it. Both have the same mean; what ' +
     'differs is the noise at equal samples.',
 };
 

@@ -61,7 +61,7 @@ function stabilityTable() {
   const kinds = [...groupBy(data.stability, (r) => r.bsdf.split('/')[0])];
   for (const [kind, ofKind] of kinds.sort((a, b) => naturalOrder(a[0], b[0]))) {
     const body = element('tbody', {}, element('tr', {className: 'group'},
-      element('td', {colspan: heading.length}, element('strong', {}, kind))));
+      element('td', {colspan: heading.length}, element('strong', {}, nameOf(kind)))));
     for (const [name, records] of groupBy(ofKind, (r) => r.bsdf)) {
       const {row, open} = stabilityRow(name, new Map(records.map((r) => [r.function, r])));
       body.append(row);

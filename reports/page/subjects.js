@@ -7,13 +7,15 @@ const kSceneNames = {veach: 'Veach’s plates', veach_phong: 'Veach’s plates, 
 /** A scene by its name alone, whether it was one that the command knows or a file. */
 const sceneOf = (group) => group.replace(/^.*\//, '').replace(/\.xml$/, '');
 
+const capitalised = (word) => word.charAt(0).toUpperCase() + word.slice(1);
+
 /** Names in one style: "GgxConductor" → "GGX conductor", "furnace_sphere" → "Furnace sphere". */
 function nameOf(name) {
   const scene = sceneOf(name);
   if (kSceneNames[scene]) return kSceneNames[scene];
   const words = scene.replaceAll('_', ' ').replace(/([a-z])([A-Z])/g, (_, a, b) => `${a} ${b.toLowerCase()}`);
-  const sentence = words.replace(/^ggx\b/i, 'GGX').replace(/^mis\b/, 'MIS');
-  return sentence.charAt(0).toUpperCase() + sentence.slice(1);
+  const sentence = words.replace(/^ggx\b/i, 'GGX').replace(/^mis\b/, 'MIS').replace(/\b(phong|gaussian)\b/, capitalised);
+  return capitalised(sentence);
 }
 
 /** Kinds of things by the first part of a subject, in the order of the matrix; the first rule that fits holds. */

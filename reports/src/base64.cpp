@@ -1,37 +1,21 @@
 #include "base64.h"
 
-#include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace plumbline::reports::detail {
-namespace {
 
-std::vector<std::uint8_t> little_endian_bytes(std::span<const float> values) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(values.size() * 4);
-  for (const float value : values) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    for (int shift = 0; shift < 32; shift += 8) {
-      bytes.push_back(static_cast<std::uint8_t>(bits >> shift));
-    }
-  }
-  return bytes;
-}
-
-}  // namespace
-
-std::string base64_of_floats(std::span<const float> values) {
+std::string base64_of(std::string_view bytes) {
   static constexpr char kDigits[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const std::vector<std::uint8_t> bytes = little_endian_bytes(values);
+  const auto byte = [bytes](std::size_t i) {
+    return i < bytes.size() ? std::uint32_t{static_cast<std::uint8_t>(bytes[i])} : 0u;
+  };
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t left = bytes.size() - i;
-    const std::uint32_t second = left > 1 ? bytes[i + 1] : 0u;
-    const std::uint32_t third = left > 2 ? bytes[i + 2] : 0u;
-    const std::uint32_t group = std::uint32_t{bytes[i]} << 16 | second << 8 | third;
+    const std::uint32_t group = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
     text += kDigits[group >> 18];
     text += kDigits[group >> 12 & 63];
     text += left > 1 ? kDigits[group >> 6 & 63] : '=';

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <span>
 #include <string>
+#include <string_view>
 
 namespace plumbline::reports::detail {
 
-/// 32-bit floats, little-endian, as base64 (RFC 4648, section 4).
-std::string base64_of_floats(std::span<const float> values);
+/// Bytes as base64 (RFC 4648, section 4).
+std::string base64_of(std::string_view bytes);
 
 }  // namespace plumbline::reports::detail

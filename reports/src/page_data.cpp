@@ -1,11 +1,11 @@
 #include "page_data.h"
 
 #include <cmath>
-#include <stdexcept>
+#include <map>
+#include <string>
 
 #include <plumbline/reports/power_fit.h>
 
-#include "base64.h"
 #include "record_fields.h"
 
 namespace plumbline::reports::detail {
@@ -52,18 +52,12 @@ Json warnings_to_json(const std::vector<ReadWarning>& warnings) {
   return list;
 }
 
+/// What is said of an image; its pixels stand beside the data (page_pixels).
 Json image_to_json(const PageImage& image) {
-  if (image.width <= 0 || image.height <= 0 ||
-      image.rgb.size() != std::size_t{3} * static_cast<std::size_t>(image.width) *
-                              static_cast<std::size_t>(image.height)) {
-    throw std::invalid_argument("image \"" + image.group + "/" + image.name +
-                                "\": size and data disagree");
-  }
   return Json::object({{"group", image.group},
                        {"name", image.name},
                        {"width", image.width},
-                       {"height", image.height},
-                       {"data", base64_of_floats(image.rgb)}});
+                       {"height", image.height}});
 }
 
 template <class Record>
@@ -161,17 +155,10 @@ Json list_with_exact_seeds(const std::vector<Record>& records) {
   return list;
 }
 
-void escape_for_script(std::string& text) {
-  std::string escaped;
-  escaped.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<') {
-      escaped += "\\u003c";
-    } else {
-      escaped += c;
-    }
-  }
-  text = std::move(escaped);
+Json answers_to_json(const std::map<std::string, std::string>& answers) {
+  Json json = Json::object();
+  for (const auto& [scene, answer] : answers) json[scene] = answer;
+  return json;
 }
 
 }  // namespace
@@ -185,6 +172,7 @@ std::string page_data(const PageInput& input) {
                                   {"warnings", warnings_to_json(results.warnings)},
                                   {"checks", checks_to_json(results.checks)},
                                   {"images", std::move(images)},
+                                  {"answers", answers_to_json(input.answers)},
                                   {"renders", list_with_exact_seeds(results.renders)},
                                   {"speed", speed_to_json(results.speed)},
                                   {"ray_costs", list_to_json(results.ray_costs)},
@@ -193,9 +181,7 @@ std::string page_data(const PageInput& input) {
                                   {"stability", list_to_json(results.stability)},
                                   {"figures", list_to_json(results.figures)},
                                   {"tables", list_to_json(results.tables)}});
-  std::string text = data.dump();
-  escape_for_script(text);
-  return text;
+  return data.dump();
 }
 
 }  // namespace plumbline::reports::detail

@@ -6,10 +6,7 @@
 
 namespace plumbline::reports::detail {
 
-/// Everything the page shows as one JSON text that may stand inside a <script> element: it holds no
-/// '<', so that no text in it can end the element or start a comment.
-///
-/// @throws std::invalid_argument for an image whose size and data disagree
+/// Everything the page shows but the pixels of its images, as one JSON text.
 std::string page_data(const PageInput& input);
 
 }  // namespace plumbline::reports::detail

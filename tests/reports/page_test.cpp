@@ -2,10 +2,12 @@
 #include <plumbline_tests/support.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <zlib.h>
 
+#include <bit>
 #include <cmath>
 #include <csignal>
-#include <cstring>
+#include <cstdint>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -39,6 +41,7 @@ PageInput sample_input() {
   input.results.figures = {sample_figure()};
   input.results.tables = {sample_table()};
   input.images = {{"furnace_sphere", "mis, power", 1, 1, {0.5f, 0.25f, 0.125f}}};
+  input.answers = {{"furnace_sphere", "L = Le / (1 - albedo)"}};
   return input;
 }
 
@@ -50,23 +53,10 @@ std::string between(const std::string& text, const std::string& open, const std:
   return text.substr(from, text.find(close, from) - from);
 }
 
-/// What a browser takes for the data: up to the first `</script`, whatever stands in it.
-Json data_of(const std::string& page) {
-  return Json::parse(between(page, "<script type=\"application/json\" id=\"data\">", "</script"));
-}
-
-std::size_t count_of(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++count;
-  }
-  return count;
-}
-
-std::vector<std::uint8_t> decode_base64(const std::string& text) {
+std::string decode_base64(const std::string& text) {
   static const std::string kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::uint8_t> bytes;
+  std::string bytes;
   std::uint32_t bits = 0;
   int held = 0;
   for (const char c : text) {
@@ -75,10 +65,59 @@ std::vector<std::uint8_t> decode_base64(const std::string& text) {
     held += 6;
     if (held >= 8) {
       held -= 8;
-      bytes.push_back(static_cast<std::uint8_t>(bits >> held));
+      bytes += static_cast<char>(bits >> held);
     }
   }
   return bytes;
+}
+
+/// What base64 and zlib were made of, by zlib itself.
+std::string inflate(const std::string& base64) {
+  const std::string packed = decode_base64(base64);
+  std::string bytes;
+  z_stream stream{};
+  if (::inflateInit(&stream) != Z_OK) throw std::runtime_error("inflateInit");
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  int status = Z_OK;
+  while (status == Z_OK) {
+    char part[4096];
+    stream.next_out = reinterpret_cast<Bytef*>(part);
+    stream.avail_out = sizeof part;
+    status = ::inflate(&stream, Z_NO_FLUSH);
+    bytes.append(part, sizeof part - stream.avail_out);
+  }
+  ::inflateEnd(&stream);
+  if (status != Z_STREAM_END) throw std::runtime_error("not what zlib makes");
+  return bytes;
+}
+
+/// What a browser takes for the data: up to the first `</script`, whatever stands in it.
+Json data_of(const std::string& page) {
+  return Json::parse(
+      inflate(between(page, "<script type=\"text/plain\" id=\"data\">", "</script")));
+}
+
+/// The values of the only image of a page, as the browser puts them together.
+std::vector<float> pixels_of(const std::string& page) {
+  const std::string bytes =
+      inflate(between(page, "<script type=\"text/plain\" id=\"images\">\n", "\n"));
+  std::vector<float> values;
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+    const auto byte = [&](std::size_t k) {
+      return std::uint32_t{static_cast<std::uint8_t>(bytes[k])};
+    };
+    values.push_back(std::bit_cast<float>((byte(i) | byte(i + 1) << 8) << 16));
+  }
+  return values;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
 }
 
 TEST(Page, HoldsEveryRecordOfTheResults) {
@@ -96,6 +135,7 @@ TEST(Page, HoldsEveryRecordOfTheResults) {
   EXPECT_EQ(data["figures"][0]["title"], "Error against samples");
   EXPECT_EQ(data["tables"][0]["rows"][1][1], "1.25");
   EXPECT_EQ(data["images"][0]["group"], "furnace_sphere");
+  EXPECT_EQ(data["answers"]["furnace_sphere"], "L = Le / (1 - albedo)");
 }
 
 TEST(Page, SeedsAreTextBecauseTheBrowserWouldRoundThem) {
@@ -122,7 +162,7 @@ TEST(Page, IsSelfContained) {
   }
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
   EXPECT_NE(page.find("Chart.js v"), std::string::npos) << "the plots' library, with its notice";
-  for (const char* part : {"{{css}}", "{{data}}", "{{chart}}", "{{script}}"}) {
+  for (const char* part : {"{{css}}", "{{data}}", "{{images}}", "{{chart}}", "{{script}}"}) {
     EXPECT_EQ(page.find(part), std::string::npos) << part;
   }
 }
@@ -146,22 +186,48 @@ TEST(Page, NoTextCanEndTheScriptThatHoldsIt) {
   EXPECT_EQ(data_of(page)["images"][0]["name"], hostile);
 }
 
-TEST(Page, PixelsArriveBitForBit) {
-  const std::vector<float> values{0.0f,   -0.0f,       1.0f,
-                                  1e-40f, 3.4e38f,     std::numeric_limits<float>::infinity(),
-                                  0.1f,   16777217.0f, 2.0f};
-  for (const std::size_t pixels : {1u, 2u, 3u}) {  // every length of base64's last group
-    PageInput input = sample_input();
-    input.images[0] = {"scene",
-                       "mis",
-                       static_cast<int>(pixels),
-                       1,
-                       {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(3 * pixels)}};
-    const Json image = data_of(make_page(input))["images"][0];
-    const std::vector<std::uint8_t> bytes = decode_base64(image["data"].as_string());
-    ASSERT_EQ(bytes.size(), 12 * pixels);
-    EXPECT_EQ(std::memcmp(bytes.data(), input.images[0].rgb.data(), bytes.size()), 0);
+PageInput with_pixels(const std::vector<float>& rgb) {
+  PageInput input = sample_input();
+  input.images[0] = {"scene", "mis", static_cast<int>(rgb.size() / 3), 1, rgb};
+  return input;
+}
+
+/// Half of the last of 8 binary digits, 2⁻⁸ of a value just above a power of two.
+TEST(Page, PixelsArriveRoundedToEightBinaryDigits) {
+  std::vector<float> values{1.0f, 1.00390625f, 1.01f, 0.1f, 16777217.0f, 1.2e-38f, -2.3f, 1e30f};
+  for (int i = 0; i < 1000; ++i) values.push_back(std::exp2(-20 + 0.041f * static_cast<float>(i)));
+  for (std::size_t pixels : {1u, 2u, 3u, 336u}) {  // every length of base64's last group
+    const std::vector<float> sent(values.begin(),
+                                  values.begin() + static_cast<std::ptrdiff_t>(3 * pixels));
+    const std::vector<float> got = pixels_of(make_page(with_pixels(sent)));
+    ASSERT_EQ(got.size(), sent.size());
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+      EXPECT_LE(std::abs(got[i] - sent[i]), std::ldexp(std::abs(sent[i]), -8)) << sent[i];
+    }
   }
+}
+
+/// A picture that shows a finite pixel as one that is not, or hides one that is not, misleads.
+TEST(Page, PixelsThatAreNotFiniteArriveAsSuchAndNoOthers) {
+  using Limits = std::numeric_limits<float>;
+  const std::vector<float> got = pixels_of(
+      make_page(with_pixels({0.0f, -0.0f, 1e-40f, Limits::max(), -Limits::max(), Limits::infinity(),
+                             -Limits::infinity(), Limits::quiet_NaN(), Limits::signaling_NaN()})));
+  ASSERT_EQ(got.size(), 9u);
+  EXPECT_EQ(got[0], 0.0f);
+  EXPECT_TRUE(std::signbit(got[1]));
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_TRUE(std::isfinite(got[i])) << i;
+  EXPECT_EQ(got[5], Limits::infinity());
+  EXPECT_EQ(got[6], -Limits::infinity());
+  EXPECT_TRUE(std::isnan(got[7]));
+  EXPECT_TRUE(std::isnan(got[8]));
+}
+
+/// The page of an image of one value; 27,648 pixels of it take 332 kB as floats in base64.
+TEST(Page, WhatRepeatsTakesNoSpace) {
+  const std::size_t plain = make_page(with_pixels({0.5f, 0.5f, 0.5f})).size();
+  const std::vector<float> grey(std::size_t{3} * 192 * 144, 0.5f);
+  EXPECT_LT(make_page(with_pixels(grey)).size(), plain + 1000);
 }
 
 TEST(Page, ImageWhoseSizeAndDataDisagreeIsRefused) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,8 @@
 
 namespace plumbline::reports {
 
-/// A picture on the page. Pictures of one group stand side by side under one exposure.
+/// A picture on the page, which shows it with values rounded by 0.4 % at most. Pictures of one
+/// group stand side by side under one exposure.
 struct PageImage {
   std::string group;  ///< "furnace_sphere"
   std::string name;   ///< "mis, power"
@@ -19,6 +21,8 @@ struct PageImage {
 struct PageInput {
   Results results;
   std::vector<PageImage> images;
+  /// Closed forms of scenes by name, each one line: "furnace_sphere" → "L = Le / (1 - albedo)"
+  std::map<std::string, std::string> answers;
 };
 
 /// The page as one self-contained HTML text: no file or address is fetched when it is opened.
