@@ -53,7 +53,7 @@ function addSearch() {
   let before = '#overview';
   field.addEventListener('input', () => {
     const text = field.value.trim();
-    const searching = shownView.id === 'find';
+    const searching = location.hash.startsWith('#find/');  // the view follows only after the next letter
     if (!searching) before = location.hash || '#overview';
     if (text === '') {
       location.hash = before;
