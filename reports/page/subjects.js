@@ -5,7 +5,7 @@
 const kSceneNames = {veach: 'Veach’s plates', veach_phong: 'Veach’s plates, Phong lobes', cornell: 'Cornell box'};
 
 /** A scene by its name alone, whether it was one that the command knows or a file. */
-const sceneOf = (group) => group.replace(/^.*\//, '').replace(/\.xml$/, '');
+const sceneOf = (group) => group.replace(/^(?:.*\/)?([^/]+)\.xml$/, '$1');
 
 const capitalised = (word) => word.charAt(0).toUpperCase() + word.slice(1);
 
@@ -24,14 +24,20 @@ const kKinds = [
   ['Lights', /^(light|light selection|overlapping lights|direct light|environment map.*|sun and sky|sun not hit.*|BSDF samples beside.*)$/],
   ['Warps and distributions', /^(warp|discrete distribution)$/],
   ['Integrals and MIS weights', /^(combinations|optimal weights|mirror and lamp|rejecting technique|bad_gaussian.*|broad_times_peaked|peaked_times_peaked|sun_and_sidewalk|three_peaks|two_steps)$/],
-  ['Samplers', /^(sobol|independent|correlation of pixels|nets by the book|padded pairs|x y over.*|.* points?)$/],
+  ['Samplers', /^(sobol|independent|correlation of pixels|nets .*|rendered nets|padded pairs|neighbouring .*|x y over.*)$/],
   ['Scene parameters', /^off default$/],
-  ['The checks themselves', /^(calibration|budget|waiver|bug|again|invariance|contribution weights|stochastic|correct)$/],
+  ['The checks themselves', /^(mean|ratio|proportion|agreement|calibration|budget|waiver|bug|again|invariance|contribution weights|stochastic|correct)$/],
   ['Rays and paths', /^(paths after.*|variance of images.*)$/],
   ['Scenes', /^([a-z0-9]+|[a-z0-9]+(_[a-z0-9]+)+( .*)?)$/],
   ['Others', /^/],
 ];
 const kControls = 'Negative controls';
+
+/** Checks of points that depend on each other are about samplers, whatever the points are called. */
+const kSamplerChecks = ['strata', 'net', 'replicates'];
+
+const kindOf = (first, check) =>
+  (kSamplerChecks.includes(check) ? 'Samplers' : kKinds.find(([, rule]) => rule.test(first))[0]);
 
 /** What tells checks of one cell apart, not cells: angles, lobes, channels, the type of number. */
 function rowPart(part) {
@@ -47,12 +53,12 @@ function rowPart(part) {
  * @return          {kind: 'BSDFs', thing: 'GGX conductor', row: 'alpha 1 · back'}
  */
 function placeOf({subject, check, expected}) {
-  const parts = subject.split(/(?<!\d)\/|\/(?!\d)/);  // but not in "eta 1/1.5"
+  const parts = subject.split(/(?<!\d)\/|\/(?!\d|pi\b)/);  // but not in "eta 1/1.5" and "without 1/pi"
   if (parts.length > 1 && parts[parts.length - 1] === check) parts.pop();
   const control = expected === 'fail' || parts[0] === 'control';
   if (parts[0] === 'control') parts.shift();
   const [first, ...rest] = parts;
-  const kind = kKinds.find(([, rule]) => rule.test(first))[0];
+  const kind = kindOf(first, check);
   if (['light', 'warp', 'off default'].includes(first) && rest.length > 0) return makePlace(kind, rest[0], rest.slice(1), control);
   const variant = first.match(/^([a-z]+_\S+|BSDF samples beside lights|paths) (.*)$/);  // "furnace_sphere depth 1"
   return variant ? makePlace(kind, variant[1], [variant[2], ...rest], control) : makePlace(kind, first, rest, control);

@@ -30,7 +30,7 @@ function partsOf(address) {
 }
 
 function makeView(view) {
-  const head = element('div', {className: 'section-head'}, element('h2', {tabindex: -1}, view.title),
+  const head = element('div', {className: 'section-head'}, element('h2', {}, view.title),
     view.about ? element('p', {}, view.about) : null);
   view.section = element('section', {id: `view-${view.id}`, className: 'view'}, head, view.make());
   document.querySelector('main').append(view.section);

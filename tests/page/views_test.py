@@ -123,6 +123,31 @@ class Views(PageTest):
         self.wait_until(lambda: self.view() == "check")
         self.assertIn("Lambertian/alpha 0.1/back 0°", self.one("#view-check .shown").text)
 
+    def test_subjects_are_read_as_what_they_are(self):
+        cases = {
+            ("GgxDielectric/eta 1/1.5 alpha 0.02/back 60°/integral", "integral"): "BSDFs: GGX dielectric: eta 1/1.5 alpha 0.02 · back",
+            ("Mixture/mixture in mixture/front 88/lobe 1", "jacobian_autodiff"): "BSDFs: Mixture: mixture in mixture · front",
+            ("ModifiedPhong/n 1/albedo at 60.000000", "mean"): "BSDFs: Modified Phong: n 1",
+            ("light/SphereLight/subtends 60°/chi_square", "chi_square"): "Lights: Sphere light: subtends 60°",
+            ("light selection/power/1/widest", "mean"): "Lights: Light selection: power · 1 · widest",
+            ("warp/square_to_uniform_disk/support", "support"): "Warps and distributions: Square to uniform disk: Square to uniform disk",
+            ("bad_gaussian_line/coin flip", "mean"): "Integrals and MIS weights: Bad Gaussian line: coin flip",
+            ("furnace_sphere depth 2/mis 1,1 power=2/red", "mean"): "Scenes: Furnace sphere: depth 2 · mis 1,1 power=2",
+            ("sidewalk/image/green", "image"): "Scenes: Sidewalk: image",
+            ("off default/point_light/mis", "mean"): "Scene parameters: Point light: mis",
+            ("halton/net", "net"): "Samplers: Halton: Halton",
+            ("calibration/coverage/skewed", "calibration"): "The checks themselves: Calibration: coverage · skewed",
+            ("control/lambertian, density without 1/pi/chi_square", "chi_square"):
+                "Negative controls: Lambertian, density without 1/pi: Lambertian, density without 1/pi",
+            ("my coat/thin/mean", "mean"): "Others: My coat: thin",
+        }
+        for (subject, check), place in cases.items():
+            read = self.run_script("const p = placeOf({subject: arguments[0], check: arguments[1], expected: 'pass'});"
+                                   "return [p.kind, p.thing, p.row].join(': ')", subject, check)
+            self.assertEqual(read, place, subject)
+        self.assertEqual(self.run_script("return placeOf({subject: 'Lambertian/x', check: 'mean', expected: 'fail'}).kind"),
+                         "Negative controls")
+
     def test_wrong_cell_is_shown_as_wrong(self):
         self.go("matrix")
         wrong = self.all(".matrix .thing .cell.wrong")
