@@ -76,7 +76,7 @@ function verdictCost(checks) {
     {name: 'Verdict', cell: verdictBadge},
     numberColumn('Seconds', (c) => c.seconds, formatSeconds),
     numberColumn('Samples', (c) => c.samples, formatCount),
-    numberColumn('ns per sample', (c) => (1e9 * toNumber(c.seconds)) / c.samples, (x) => formatAligned(x, 3)),
+    numberColumn('ns per sample', (c) => (c.samples > 0 ? (1e9 * toNumber(c.seconds)) / c.samples : NaN), (x) => formatAligned(x, 3)),
   ];
   const card = (title, table) => element('div', {className: 'card'}, element('h3', {}, title), table);
   return element('div', {}, card('By kind', sortableTable(kindColumns, kinds)),

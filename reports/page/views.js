@@ -43,10 +43,10 @@ function showAddress() {
   if (!view.section) makeView(view);
   for (const other of views) if (other.section) other.section.hidden = other !== view;
   for (const other of listedViews()) other.link.toggleAttribute('aria-current', other === view);
+  if (view !== shownView) scrollTo(0, view.open ? 0 : view.scroll);
   view.open?.(view.section, rest);
   document.title = `${view.title} · Plumbline`;
   drawCharts();
-  if (view !== shownView) scrollTo(0, view.open ? 0 : view.scroll);
   shownView = view;
   view.link?.scrollIntoView({block: 'nearest', inline: 'nearest'});
 }

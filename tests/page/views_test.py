@@ -161,6 +161,24 @@ class Views(PageTest):
         self.one("#view-checks input").send_keys("furnace green")
         self.wait_until(lambda: "3 of" in self.one("#view-checks .count").text)
 
+    def test_an_address_of_a_scene_leads_to_it(self):
+        scenes = self.run_script("return [...new Set(data.images.map((i) => i.group))].sort()")
+        self.resize(380)
+        for scene in scenes:
+            self.go("overview")
+            self.go("images/" + urllib.parse.quote(scene, safe=""))
+            top = "return document.querySelector(`[data-scene=\"${CSS.escape(arguments[0])}\"]`).getBoundingClientRect().top"
+            self.wait_until(lambda: -50 < self.run_script(top, scene) < 450)
+
+    def test_a_view_is_found_where_it_was_left(self):
+        self.resize(380)
+        self.run_script("scrollTo(0, 700)")
+        self.go("matrix")
+        self.assertEqual(self.run_script("return scrollY"), 0)
+        self.browser.back()
+        self.wait_until(lambda: self.view() == "overview")
+        self.wait_until(lambda: self.run_script("return scrollY") == 700)
+
     def test_slider_zoom_and_choice_of_pictures(self):
         self.go("images/furnace_sphere")
         self.wait_for("[data-scene=furnace_sphere] .stack canvas.over")
