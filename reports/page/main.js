@@ -23,7 +23,8 @@ async function start() {
   data = await readData();
   addViews();
   startViews();
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redrawCharts);
+  // Canvases keep the colours that they were drawn in.
+  for (const query of ['(prefers-color-scheme: dark)', 'print']) matchMedia(query).addEventListener('change', redrawCharts);
 }
 
 start().catch((error) => {

@@ -128,6 +128,10 @@ function addOverview() {
     id: 'overview',
     group: 'Verdict',
     title: 'Overview',
-    make: () => [verdictPanel(), ...notices(), ...needsEyes(), ...showpieces(), ...barList(), ...environmentList()],
+    make: () => {
+      const missed = data.bars.some((bar) => bar.verdict === 'missed');  // then the bars need eyes too
+      const rest = missed ? [barList(), showpieces()] : [showpieces(), barList()];
+      return [verdictPanel(), ...notices(), ...needsEyes(), ...rest.flat(), ...environmentList()];
+    },
   });
 }

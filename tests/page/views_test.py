@@ -218,6 +218,16 @@ class Views(PageTest):
             self.assertTrue(pdf.startswith(b"%PDF"))
             self.assertGreater(len(pdf), 10_000, "an empty sheet has 1 kB")
 
+    def test_paper_is_light_in_a_dark_browser_too(self):
+        self.resize(1600, dark=True)
+        self.go("speed")
+        colour = "return Chart.getChart(document.querySelector('#view-speed canvas')).options.scales.x.title.color"
+        self.assertEqual(self.run_script(colour), "#9aa4ae")
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+            "media": "print", "features": [{"name": "prefers-color-scheme", "value": "dark"}]})
+        self.wait_until(lambda: self.run_script(colour) == "#636b74")
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
     def test_console_is_heard(self):
         self.run_script("console.warn('heard')")
         self.assertEqual(len(self.console()), 1)
