@@ -2,6 +2,7 @@
 #include <plumbline_tests/support.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -225,6 +226,17 @@ TEST(Agreement, FailsWhereOneIsOff) {
   expect_verdict(
       check_agreement(o, sampler(o.seed, Exponential{}),
                       sampler(o.seed + 1, [](Random& r) { return 2.04 * r.uniform(); })));
+}
+
+TEST(Agreement, NeverPassesWhereAsManySamplesOfBothAreNotFinite) {
+  MeanOptions o = options("agreement/a NaN each", 0);
+  o.expected = Verdict::fail;
+  const auto with_one_nan = [](std::uint64_t seed) {
+    return sampler(seed, [drawn = 0](Random& r) mutable {
+      return ++drawn == 1000 ? std::numeric_limits<double>::quiet_NaN() : 2 * r.uniform();
+    });
+  };
+  expect_verdict(check_agreement(o, with_one_nan(o.seed), with_one_nan(o.seed + 1)));
 }
 
 TEST(Agreement, InconclusiveWhereATailDecides) {

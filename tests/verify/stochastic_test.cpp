@@ -54,6 +54,15 @@ TEST(Stochastic, AWalkThroughLayersPassesFromBothSides) {
   PLUMBLINE_EXPECT_PASS(repeatable(check_walk({}, o)));
 }
 
+TEST(Stochastic, NoMeanTakesMoreSamplesThanItMay) {
+  StochasticOptions o = seen_from({60}, "stochastic/few samples");
+  o.tolerance = 1e-6;       // beyond reach
+  o.max_samples = 1 << 15;  // one look more than the first
+  for (const CheckResult& r : check_walk({}, o)) {
+    EXPECT_LE(r.samples, 2 * o.max_samples) << r.subject;  // two sides that should agree
+  }
+}
+
 TEST(Stochastic, AWhiteWalkReflectsEverything) {
   LayeredWalk white;
   white.albedo = white.bottom = {1, 1};

@@ -66,7 +66,7 @@ struct StochasticOptions : CheckSettings {
   /// samples relative to all, of what is seen of a light relative to that. In each channel.
   double tolerance = 0.01;
 
-  std::uint64_t max_samples = std::uint64_t{1} << 23;  ///< of each check
+  std::uint64_t max_samples = std::uint64_t{1} << 23;  ///< of each side of a check
 
   bool unbiased_pdf = true;  ///< E[pdf] claims to be the density of samples
   bool mis = true;           ///< whether pdf is meant for weights
