@@ -113,7 +113,9 @@ void expect_claimed_variance(SamplerType sampler) {
   options.at_least = 0.75;
   options.at_most = 4.0 / 3;
   options.seed = check_seed(options.subject);
-  constexpr std::uint64_t kBatches = 32, kRenders = 48;
+  // Many batches rather than large ones: of 32 the skewness that the jackknife corrects for was
+  // itself so noisy that one seed in twelve left the check undecided.
+  constexpr std::uint64_t kBatches = 64, kRenders = 24;
   std::vector<double> seen, claimed;
   for (std::uint64_t batch = 0; batch < kBatches; ++batch) {
     verify::Moments means;
