@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,6 +14,8 @@
 #include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
+
+#include "../renderer/path_settings.h"
 
 /// Prints a hash of each picture of a covering array of settings, by both backends, on every scene
 /// there is: a fault in the renderer that leaves all of them as they are changes no picture.
@@ -56,15 +57,6 @@ constexpr std::array kScenes{"tests/renderer/lamps",
                              "analytic/scenes/sphere_near",
                              "analytic/scenes/thin_gap",
                              "analytic/scenes/triangle_light"};
-const std::array kWeightings{Weighting(Heuristic::balance), Weighting(Heuristic::power),
-                             Weighting(Heuristic::power, 1.5), Weighting(Heuristic::cutoff),
-                             Weighting(Heuristic::maximum)};
-constexpr std::array kDepths{1, 2, 5, -1};
-constexpr std::array kRouletteDepths{1, 3, kNoRoulette};
-struct Techniques {
-  Strategy strategy;
-  int bsdf = 1, light = 1;
-};
 constexpr std::array kTechniques{Techniques{Strategy::bsdf},      Techniques{Strategy::light},
                                  Techniques{Strategy::uniform},   Techniques{Strategy::mis},
                                  Techniques{Strategy::mis, 2, 3}, Techniques{Strategy::mis, 1, 0},
@@ -118,13 +110,8 @@ std::uint64_t picture(const SettingsRow& row) {
   RenderOptions options;
   options.samples_per_pixel = 16;
   options.threads = 1;
-  const Techniques& techniques = kTechniques.at(row[kTechnique]);
-  options.path.strategy = techniques.strategy;
-  options.path.bsdf_samples = techniques.bsdf;
-  options.path.light_samples = techniques.light;
-  options.path.heuristic = kWeightings.at(row[kWeighting]);
-  options.path.max_depth = kDepths.at(row[kDepth]);
-  options.path.rr_depth = kRouletteDepths.at(row[kRoulette]);
+  options.path = path_options(kTechniques.at(row[kTechnique]), kWeightings.at(row[kWeighting]),
+                              kDepths.at(row[kDepth]), kRouletteDepths.at(row[kRoulette]));
   options.sampler = kSamplers.at(row[kSampler]);
   if (options.sampler == SamplerType::sobol) options.replicates = kReplicates.at(row[kReplicate]);
   options.backend = kBackends.at(row[kBackend]);

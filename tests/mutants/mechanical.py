@@ -28,7 +28,7 @@ LITERAL_HOMES = {"BINARY_OPERATOR", "COMPOUND_ASSIGNMENT_OPERATOR", "CALL_EXPR",
 FUNCTIONS = {"FUNCTION_DECL", "CXX_METHOD", "CONSTRUCTOR", "DESTRUCTOR", "FUNCTION_TEMPLATE", "CONVERSION_FUNCTION",
              "LAMBDA_EXPR"}
 # Not entered: no code that runs, or only on the way out.
-CLOSED = {"STATIC_ASSERT", "CXX_THROW_EXPR", "CASE_STMT_LABEL", "TYPE_REF", "TEMPLATE_REF", "DECL_REF_EXPR",
+CLOSED = {"STATIC_ASSERT", "CXX_THROW_EXPR", "TYPE_REF", "TEMPLATE_REF", "DECL_REF_EXPR",
           "ENUM_DECL", "UNION_DECL", "TYPE_ALIAS_DECL"}
 
 
@@ -168,7 +168,7 @@ class Finder:
                 self.add(cursor, "constant", f"{text} - 1")
             return
         zero = re.fullmatch(r"0?\.?0*[fF]?", text)
-        suffix = "f" if text[-1] in "fF" and not text.startswith("0x") or text[-1] in "fF" else ""
+        suffix = "f" if text[-1] in "fF" else ""
         if zero:
             self.add(cursor, "constant", f"1.0{suffix}")
             return

@@ -10,6 +10,7 @@
 
 #include <plumbline/renderer/assembly/names.h>
 #include "both_backends.h"
+#include "path_settings.h"
 
 /// Two backends, one image, whatever the settings: three values of any three settings meet in some
 /// row.
@@ -25,18 +26,8 @@ constexpr std::array kScenes{"tests/renderer/lamps",           "bench/scenes/cor
                              "analytic/scenes/lights_1000",    "analytic/scenes/furnace_cube",
                              "analytic/scenes/triangle_light", "analytic/scenes/point_glossy",
                              "analytic/scenes/sidewalk",       "analytic/scenes/phong_polygon"};
-/// Each with a loop of its own in the batched backend, or with the one for all others.
-const std::array kWeightings{Weighting(Heuristic::balance), Weighting(Heuristic::power),
-                             Weighting(Heuristic::power, 1.5), Weighting(Heuristic::cutoff),
-                             Weighting(Heuristic::maximum)};
-constexpr std::array kDepths{1, 2, 5, -1};
-constexpr std::array kRouletteDepths{1, 3, kNoRoulette};
 /// Each strategy; of MIS with one sample of each technique, which is the batched backend's own, and
 /// with more.
-struct Techniques {
-  Strategy strategy;
-  int bsdf = 1, light = 1;  // samples at the first vertex
-};
 constexpr std::array kTechniques{Techniques{Strategy::bsdf},      Techniques{Strategy::light},
                                  Techniques{Strategy::uniform},   Techniques{Strategy::mis},
                                  Techniques{Strategy::mis, 2, 3}, Techniques{Strategy::one_sample},
@@ -62,13 +53,8 @@ Settings all_settings() {
 RenderOptions options_of(const SettingsRow& row) {
   RenderOptions options;
   options.samples_per_pixel = kSmallSamples;
-  const Techniques& techniques = kTechniques.at(row[kTechnique]);
-  options.path.strategy = techniques.strategy;
-  options.path.bsdf_samples = techniques.bsdf;
-  options.path.light_samples = techniques.light;
-  options.path.heuristic = kWeightings.at(row[kWeighting]);
-  options.path.max_depth = kDepths.at(row[kDepth]);
-  options.path.rr_depth = kRouletteDepths.at(row[kRoulette]);
+  options.path = path_options(kTechniques.at(row[kTechnique]), kWeightings.at(row[kWeighting]),
+                              kDepths.at(row[kDepth]), kRouletteDepths.at(row[kRoulette]));
   options.sampler = kSamplers.at(row[kSampler]);
   return options;
 }
