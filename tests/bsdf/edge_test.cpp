@@ -127,6 +127,25 @@ TYPED_TEST(Edge, ThereIsADensityWhereTheModelHasOneAndNowhereElse) {
   }
 }
 
+/// One of the poles exactly: what is divided by may be 0 there.
+TYPED_TEST(Edge, NothingGoesThroughWhatOnlyReflects) {
+  const Vec3f up{0, 0, 1}, down{0, 0, -1}, slant{0.6f, 0, 0.8f};
+  for (const Example& example : examples_of<TypeParam>()) {
+    const auto expect_nothing = [&](const Vec3f& wo, const Vec3f& wi) {
+      const BsdfValue<float> value = example.bsdf.evaluate(wo, wi);
+      EXPECT_TRUE(is_sane(value.f) && value.pdf_w >= 0) << example.name;
+      if (example.eta != 1) return;
+      EXPECT_TRUE(is_black(value.f) && value.pdf_w == 0) << example.name;
+    };
+    for (const Vec3f& above : {up, slant}) {
+      for (const Vec3f& below : {down, -slant}) {
+        expect_nothing(above, below);
+        expect_nothing(below, above);
+      }
+    }
+  }
+}
+
 TYPED_TEST(Edge, EvaluateIsEvalAndPdf) {
   for (const Example& example : examples_of<TypeParam>()) {
     verify::Random random(check_seed(example.name + "/evaluate"));

@@ -14,6 +14,7 @@
 #include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/core/light/light.h>
+#include <plumbline/renderer/core/sampling/discrete.h>
 #include "light_examples.h"
 
 /// Lights, and parts of lights, are chosen with the weights that they are said to have: by value,
@@ -175,6 +176,28 @@ TEST(LightChoice, InASceneCountsItsRadiusAndItsMeshes) {
   for (std::uint32_t i = 0; i < power.size(); ++i) {
     EXPECT_NEAR(made.lights().pmf<double>(i), power[i] / total, rounding(power.size())) << i;
   }
+}
+
+/// Of a rectangle that stands on its corner every corner counts.
+TEST(LightChoice, InASceneCountsAllCornersOfARectangle) {
+  using namespace renderer;
+  SceneDescription scene;
+  scene.bsdfs = make_bsdfs({Lambertian{{0.5f, 0.5f, 0.5f}}});
+  scene.light_selection = LightSelection::power;
+  scene.environment = Rgbd{1, 1, 1};
+  scene.shapes.push_back(
+      {RectangleShape{{0, -1, 0}, {1, 1, 0}, {-1, 1, 0}, false}, 0, Rgbd{1, 1, 1}, false, false});
+  const Scene made = make_scene(scene);
+  const double square_of_radius = (4 + 4) / 4.0;
+  const double rectangle = 2 * kPi, sky = kPi * square_of_radius * 4 * kPi;
+  ASSERT_EQ(made.lights().size(), 2u);
+  EXPECT_NEAR(made.lights().pmf<double>(0), rectangle / (rectangle + sky), rounding(2));
+}
+
+TEST(DiscreteDistribution, OfWeightsThatAreAllZeroChoosesAllAlike) {
+  const std::vector<double> weights(5, 0.0);
+  const renderer::DiscreteDistribution alike(weights);
+  for (std::uint32_t i = 0; i < 5; ++i) EXPECT_NEAR(alike.pmf<double>(i), 0.2, rounding(5)) << i;
 }
 
 /// By luminance times solid angle, or by what a pixel has above the mean over the sphere.

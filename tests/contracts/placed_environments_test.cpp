@@ -240,6 +240,7 @@ class PlacedEnvironments : public testing::TestWithParam<KnownSky> {
       const Vec3d along = normalize(renderer::vec_cast<double>(sample->wi));
       if (!GetParam().clear(along)) continue;
       EXPECT_EQ(sample->distance, std::numeric_limits<float>::infinity());
+      EXPECT_EQ(sample->cos_light, 1.0f) << "it faces every point";
       expect_rgb_near(sample->radiance, GetParam().radiance(along));
       expect_pdf(static_cast<double>(sample->pdf_w), along, pmf);
       expect_known(scene, sample->wi, pmf);

@@ -106,11 +106,12 @@ TEST(AllocatedRender, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(AllocatedRender, NotesTheCountsDrawnInEveryIteration) {
+TEST(AllocatedRender, NotesTheCountsDrawnInEveryIterationAndItsTime) {
   const Scene scene = make_scene(small_scene("sphere_light"));
   const auto options = allocated(Allocation::root_v2, 7);
   const renderer::RenderResult result = render(scene, options);
   const std::size_t pixels = result.film.pixels().size();
+  EXPECT_GT(result.seconds, 0);
   ASSERT_EQ(result.bsdf_counts.size(), 4 * pixels);
   const std::vector<float> shares = final_shares(result, 4);
   ASSERT_EQ(shares.size(), pixels);

@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import re
+import stat
 import subprocess
 import tempfile
 import time
@@ -117,6 +118,8 @@ class Verdict:
 def run_group(number, group, folder):
     """(the test that failed, how, what was printed, what checks recorded), or None."""
     known = sum(t.seconds for t in group)
+    if not stat.S_ISCHR(os.stat(os.devnull).st_mode):
+        raise RuntimeError(f"a fault has put a file in the place of {os.devnull}: every later result would be wrong")
     with tempfile.TemporaryDirectory() as results:
         flags = pathlib.Path(results) / "flags"
         flags.write_text("--gtest_fail_fast\n--gtest_brief=0\n--gtest_filter=" + ":".join(t.filter for t in group) + "\n")

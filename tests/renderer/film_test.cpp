@@ -69,6 +69,26 @@ TEST(Film, NonFiniteSamplesAreCountedAndLeftOut) {
   EXPECT_EQ(moments.mean.g, 1.0);
 }
 
+TEST(Film, PixelsStandRowByRowFromTheTop) {
+  Film film(3, 2);
+  film.at(2, 1).add({1, 1, 1});
+  const Film& same = film;
+  EXPECT_EQ(film.pixels()[5].count, 1u);
+  EXPECT_EQ(&same.at(2, 1), &film.pixels()[5]);
+  EXPECT_EQ(&same.at(1, 0), &film.pixels()[1]);
+}
+
+TEST(Film, AReplicateIsOneValueHoweverFewItsSamples) {
+  PixelMoments whole, one, none;
+  one.add({3, 3, 3});
+  none.add({std::numeric_limits<float>::infinity(), 1, 1});
+  whole.add_replicate(one);
+  whole.add_replicate(none);
+  EXPECT_EQ(whole.count, 1u);
+  EXPECT_EQ(whole.mean.r, 3.0);
+  EXPECT_EQ(whole.non_finite, 1u);
+}
+
 TEST(Film, RelativeErrorFollowsItsDefinition) {
   Film film(1, 1);
   film.at(0, 0).add({1, 1, 1});

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <set>
+#include <utility>
+
+#include <plumbline/renderer/core/sampling/sobol.h>
 
 namespace plumbline::renderer {
 namespace {
@@ -25,6 +29,42 @@ TEST(Pcg32, NeverReturnsOneAndCoversTheUnitInterval) {
 TEST(Pcg32, ThirtyTwoBitsTimesTwoToTheMinusThirtyTwoWouldReachOne) {
   // Why next_1d takes 24 bits: the widespread alternative rounds up.
   EXPECT_EQ(static_cast<float>(0xffffffffu) * 0x1p-32f, 1.0f);
+}
+
+TEST(Pcg32, GivesThePublishedNumbers) {
+  // The demonstration of pcg-c-basic, pcg32_srandom(42, 54), after the two steps of its seeding.
+  Pcg32 random({0x185706b82c2e03f8u, 54u << 1 | 1u});
+  for (const std::uint32_t bits :
+       {0xa15c02b7u, 0x7b47f409u, 0xba1d3330u, 0x83d2f293u, 0xbfa4784bu, 0xcbed606eu}) {
+    EXPECT_EQ(random.next_bits(), bits);
+  }
+}
+
+TEST(MixBits, GivesThePublishedNumberOfSplitMix64) {
+  // The first number of SplitMix64 from the state 1234567, which adds the golden ratio first.
+  EXPECT_EQ(mix_bits(1234567u + 0x9e3779b97f4a7c15u), 6457827717110365317u);
+}
+
+// An image that was made with a seed is made again with it, by every later version. The numbers are
+// from a few lines of Python written after the formulas' sources.
+TEST(Pcg32, SeedPixelAndSampleStayTheSequenceThatTheyWere) {
+  Pcg32 random(1, 2, 3);
+  for (const std::uint32_t bits : {0xcb837636u, 0x15084b7au, 0xc49d0ff6u, 0x6ecfd4ecu}) {
+    EXPECT_EQ(random.next_bits(), bits);
+  }
+}
+
+TEST(SobolSampler, SeedNetAndIndexStayThePointsThatTheyWere) {
+  SobolSampler pairs(1, 2, 3);
+  for (const auto& [x, y] : {std::pair{0xad5f11, 0x96bb31}, std::pair{0xaaf9b1, 0x2eaba4},
+                             std::pair{0x0bb976, 0xf5b39a}}) {
+    const Vec2f point = pairs.next_2d();
+    EXPECT_EQ(point.x, static_cast<float>(x) * 0x1p-24f);
+    EXPECT_EQ(point.y, static_cast<float>(y) * 0x1p-24f);
+  }
+  // A number alone is the first of the pair that would have stood in its place.
+  SobolSampler numbers(1, 2, 3);
+  EXPECT_EQ(numbers.next_1d(), static_cast<float>(0xad5f11) * 0x1p-24f);
 }
 
 TEST(Pcg32, NeighbouringPixelsSamplesAndSeedsStartDifferentSequences) {

@@ -27,6 +27,23 @@ TEST(HostileFile, Of100MBIsRefusedUnread) {
             "scene.xml: has 104857600 bytes, more than the 16777216 that such a file may have");
 }
 
+TEST(HostileFile, MayBeAsLargeAsIsSaid) {
+  const ScratchDirectory directory;
+  const std::string scene = scene_with("<shape type=\"sphere\"/>");
+  const auto file =
+      directory.write("scene.xml", scene + std::string((16u << 20) - scene.size(), '\n'));
+  EXPECT_EQ(refusal_of_file(file), "");
+  std::ofstream(file, std::ios::app) << '\n';
+  EXPECT_EQ(refusal_of_file(file),
+            "scene.xml: has 16777217 bytes, more than the 16777216 that such a file may have");
+}
+
+TEST(HostileFile, OfOneByteIsNotEmpty) {
+  EXPECT_EQ(refusal_of_text(""), "scene.xml: is empty");
+  EXPECT_NE(refusal_of_text("<"), "scene.xml: is empty");
+  EXPECT_NE(refusal_of_text("<"), "");
+}
+
 TEST(HostileFile, NestedAHundredThousandDeepIsRefused) {
   EXPECT_EQ(refusal_of_text(repeated("<scene>\n", 100000) + repeated("</scene>", 100000)),
             "scene.xml:33: elements are nested deeper than 32");

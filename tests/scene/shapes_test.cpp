@@ -120,6 +120,16 @@ TEST(Disk, ScalesTurnsAndMoves) {
   EXPECT_NEAR(disk.radius, 3, kRounding);
 }
 
+TEST(Disk, MayBeOutOfRoundByWhatRoundingMakes) {
+  // By 5e-6 of its size, whatever that is: half of what is refused.
+  for (const char* scale : {"x=\"100\" y=\"100.0005\"", "x=\"1e-3\" y=\"1.000005e-3\""}) {
+    const auto disk = only_shape<DiskShape>(
+        load_body(std::string(R"(<shape type="disk"><transform name="to_world"><scale )") + scale +
+                  "/></transform></shape>"));
+    expect_near(disk.normal, {0, 0, 1});
+  }
+}
+
 TEST(Disk, FlipAndMirrorFollowTheRectangle) {
   const char* flipped = R"(<shape type="disk"><boolean name="flip_normals" value="true"/></shape>)";
   expect_near(only_shape<DiskShape>(load_body(flipped)).normal, {0, 0, -1});

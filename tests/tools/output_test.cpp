@@ -38,20 +38,25 @@ TEST(Output, ThatOutgrowsTheFileSizeLimitLeavesTheOldImageAndIsTheMachinesFault)
   EXPECT_EQ(scratch.listing(), "out.exr");
 }
 
+// By links: code that is wrong would put a file in the device's place.
 TEST(Output, ToAFullDeviceIsTheMachinesFault) {
   const ScratchDirectory scratch;
-  EXPECT_EQ(run_plumbline(scratch.path(), kQuick + "-o /dev/full").exit_code, 3);
-  EXPECT_EQ(run_plumbline(scratch.path(), kQuick + "-o out.exr --json /dev/full").exit_code, 3);
-  EXPECT_EQ(run_plumbline(scratch.path(), "list >/dev/full").exit_code, 3);
-  EXPECT_EQ(run_plumbline(scratch.path(), "--help >/dev/full").exit_code, 3);
+  std::filesystem::create_symlink("/dev/full", scratch / "full");
+  EXPECT_EQ(run_plumbline(scratch.path(), kQuick + "-o full").exit_code, 3);
+  EXPECT_EQ(run_plumbline(scratch.path(), kQuick + "-o out.exr --json full").exit_code, 3);
+  EXPECT_EQ(run_plumbline(scratch.path(), "list >full").exit_code, 3);
+  EXPECT_EQ(run_plumbline(scratch.path(), "--help >full").exit_code, 3);
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch / "full"));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
 TEST(Output, ToTheNullDeviceIsFine) {
   const ScratchDirectory scratch;
-  const Outcome outcome = run_plumbline(scratch.path(), kQuick + "-o /dev/null --json out.json");
+  std::filesystem::create_symlink("/dev/null", scratch / "null");
+  const Outcome outcome = run_plumbline(scratch.path(), kQuick + "-o null --json out.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(scratch.read("out.json").find("\"image\":\"\""), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch / "null"));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 

@@ -163,6 +163,8 @@ class FilmOnDielectric {
     tabulated_ = !reflected_.empty() && !transmitted_.empty();
   }
 
+  bool tabulated() const { return tabulated_; }  ///< what floats take, in place of the formula
+
   /// @param cos2_o, from_outside  as for BareInterface::split
   template <class T>
   [[gnu::always_inline]] PowerSplit<Rgb<T>> split(const Wide<T>& cos2_o, bool from_outside) const {

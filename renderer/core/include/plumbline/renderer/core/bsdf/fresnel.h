@@ -149,6 +149,7 @@ class ConductorFresnel {
 
   const Rgbf& eta() const { return eta_; }
   const Rgbf& k() const { return k_; }
+  bool tabulated() const { return !table_.empty(); }  ///< what floats take, in place of the formula
 
   /// @param cos2_o  square of the cosine, in [0, 1]
   template <class T>
