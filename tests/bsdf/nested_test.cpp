@@ -34,6 +34,7 @@ TEST(TwoSidedLobes, ThatOnlyTheOtherSideHasAreNeverSampled) {
     EXPECT_GT(bsdf.pdf_lobe(front, slant, lobe), 0.0f);
     EXPECT_TRUE(bsdf.sample_lobe(front, lobe, u));
   }
+  EXPECT_GT(bsdf.lobe_probability(Vec3f{1, 0, 0}, 1), 0.0f) << "the horizon counts as the front";
   EXPECT_EQ(bsdf.lobe_probability(back, 0), 1.0f);
   EXPECT_GT(bsdf.pdf_lobe(back, -slant, 0), 0.0f);
   EXPECT_TRUE(bsdf.sample_lobe(back, 0, u));

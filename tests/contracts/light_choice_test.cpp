@@ -200,6 +200,17 @@ TEST(DiscreteDistribution, OfWeightsThatAreAllZeroChoosesAllAlike) {
   for (std::uint32_t i = 0; i < 5; ++i) EXPECT_NEAR(alike.pmf<double>(i), 0.2, rounding(5)) << i;
 }
 
+/// It has nothing above its mean, and is sampled as it stands.
+TEST(EnvironmentMapChoice, OfAMapThatIsTheSameEverywhereIsUniform) {
+  for (const float grey : {0.25f, 4.0f}) {
+    const renderer::EnvironmentMap map{std::make_shared<renderer::EnvironmentTable>(
+        4, 3, std::vector<Rgbf>(12, Rgbf{grey, grey, grey}), true)};
+    for (const Vec3f& wi : {Vec3f{0, 1, 0}, Vec3f{0.6f, 0, 0.8f}, Vec3f{-0.36f, -0.8f, 0.48f}}) {
+      EXPECT_NEAR(map.pdf(Vec3f{}, wi), static_cast<float>(1 / (4 * kPi)), 2e-7f) << grey;
+    }
+  }
+}
+
 /// By luminance times solid angle, or by what a pixel has above the mean over the sphere.
 TEST(EnvironmentMapChoice, OfEveryPixelHasItsStatedProbability) {
   const std::vector<double> greys = small_map_greys();

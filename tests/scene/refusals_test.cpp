@@ -29,6 +29,9 @@ const std::vector<Refusal> kBodies = {
      "emitter"},
     {"UnknownShape", "\n<shape type=\"sphear\"/>",
      R"(4: <shape> of type "sphear" is not supported; did you mean "sphere"?)"},
+    {"UnknownShapeInStrangeCharacters", "<shape type=\"\x7f~ \x1f\xc3\xa9\"/>",
+     "3: <shape> of type \"?~ ?\xc3\xa9\" is not supported; supported: sphere, rectangle, disk, "
+     "obj"},
     {"UnsupportedShape", "<shape type=\"cylinder\"/>",
      R"(3: <shape> of type "cylinder" is not supported; supported: sphere, rectangle, disk, obj)"},
     {"NoType", "<shape/>", R"(3: <shape> needs the attribute "type")"},

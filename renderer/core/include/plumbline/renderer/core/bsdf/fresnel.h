@@ -25,7 +25,7 @@ struct PowerSplit {
 
 /// η cosθt by Snell's law; 0 where all is reflected.
 ///
-/// @param cos_o  on the side that the light comes from, ≥ 0
+/// @param cos_o  on the side that the light comes from, of either sign
 /// @param eta    η_t/η_o > 0
 template <class T>
 T refracted_cosine(const T& cos_o, const T& eta) {

@@ -28,7 +28,6 @@ class ReflectanceTable {
       count_ = pieces;
       return;
     }
-    pieces_.clear();
   }
 
   bool empty() const { return count_ == 0; }

@@ -96,7 +96,7 @@ struct SmoothDielectric {
     using W = Wide<T>;
     const W eta = relative_index<T>(interface.eta, wo.z > T(0));
     const auto z = static_cast<W>(wo.z);
-    const W cos_t = refracted_cosine(z > W(0) ? z : W(-z), eta) / eta;
+    const W cos_t = refracted_cosine(z, eta) / eta;
     const T shrink = static_cast<T>(W(1) / eta);
     const Vec3<T> wi{T(-wo.x * shrink), T(-wo.y * shrink),
                      static_cast<T>(z > W(0) ? W(-cos_t) : cos_t)};
