@@ -54,7 +54,15 @@ inline std::size_t differing_pixels(const Pair& pair) {
   return count;
 }
 
-/// The same bits, by the same rays.
+/// Whether these are the same bits, by the same rays.
+inline bool same_bits(const Pair& pair) {
+  const renderer::PathCounters &a = pair.scalar.counters, &b = pair.batched.counters;
+  return differing_pixels(pair) == 0 && a.camera_rays == b.camera_rays &&
+         a.bounce_rays == b.bounce_rays && a.shadow_rays == b.shadow_rays &&
+         a.rejected == b.rejected;
+}
+
+/// `same_bits`, with what differs.
 inline void expect_same_bits(const Pair& pair) {
   EXPECT_EQ(differing_pixels(pair), 0u);
   const renderer::PathCounters &a = pair.scalar.counters, &b = pair.batched.counters;

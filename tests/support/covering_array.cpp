@@ -129,4 +129,17 @@ std::vector<SettingsRow> covering_array(const Settings& settings, std::size_t st
   return rows;
 }
 
+Combination shared_by(const std::vector<SettingsRow>& rows) {
+  Combination shared;
+  if (rows.empty()) return shared;
+  for (std::size_t setting = 0; setting < rows.front().size(); ++setting) {
+    const std::size_t value = rows.front()[setting];
+    if (std::all_of(rows.begin(), rows.end(),
+                    [&](const SettingsRow& row) { return row[setting] == value; })) {
+      shared.push_back({setting, value});
+    }
+  }
+  return shared;
+}
+
 }  // namespace plumbline::tests

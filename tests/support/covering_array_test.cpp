@@ -83,5 +83,12 @@ TEST(CoveringArray, SettingsThatClashInEveryWayAreRefused) {
   EXPECT_THROW(covering_array(settings, 1), std::logic_error);
 }
 
+TEST(CoveringArray, RowsShareTheValuesThatAllOfThemHave) {
+  EXPECT_EQ(shared_by({{0, 2, 1}, {1, 2, 1}, {0, 2, 0}}), (Combination{{1, 2}}));
+  EXPECT_EQ(shared_by({{0, 2}, {1, 1}}), Combination{});
+  EXPECT_EQ(shared_by({{0, 2}}), (Combination{{0, 0}, {1, 2}}));
+  EXPECT_EQ(shared_by({}), Combination{});
+}
+
 }  // namespace
 }  // namespace plumbline::tests
