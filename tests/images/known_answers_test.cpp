@@ -265,6 +265,7 @@ TEST_P(KnownAnswer, GivesTheExpectedVerdictInEveryWay) {
           ->image_mean()
           .value;
   std::vector<ChannelResults> results;
+  std::vector<renderer::Strategy> strategies;
   std::vector<WayVerdict> decidable;
   for (Way way : GetParam().ways()) {
     // What is blind shows zeros, which fail from 2^20 samples on, be they paths or nets of paths.
@@ -277,14 +278,18 @@ TEST_P(KnownAnswer, GivesTheExpectedVerdictInEveryWay) {
       set_expectation(options[i], c, expectation(c).variance.*kChannels[i].exact);
     }
     results.push_back(check_channels(options, loaded.samples(way, options[0].seed)));
+    strategies.push_back(way.path.strategy);
     if (expected_verdict(c) == analytic::Expected::pass) {
       decidable.push_back(verdict_of_way(way, loaded.max_depth(), results.back()));
     }
   }
   const std::string diagnosis = diagnosis_of(GetParam(), loaded, answer, std::move(decidable));
-  for (const ChannelResults& way : results) {
-    for (verify::CheckResult result : way) {
-      if (!result.as_expected()) result.diagnosis = diagnosis;
+  for (std::size_t way = 0; way < results.size(); ++way) {
+    for (verify::CheckResult result : results[way]) {
+      if (!result.as_expected()) {
+        const bool sees = result.verdict == verify::Verdict::pass;
+        result.diagnosis = diagnosis.empty() && sees ? part_that_sees(strategies[way]) : diagnosis;
+      }
       expect_verdict(result);
     }
   }

@@ -320,4 +320,14 @@ std::string likely_part(const SceneVerdicts& scene) {
   return part + factor(common_ratio(wrong)) + channels_alone(wrong);
 }
 
+std::string part_that_sees(renderer::Strategy strategy) {
+  if (strategy == renderer::Strategy::average) {
+    return "likely wrong: the weights, since of light that one technique alone can find, the "
+           "average "
+           "of both is half";
+  }
+  return "likely wrong: which lights a technique is taken to find, since light that it cannot find "
+         "is in its answer";
+}
+
 }  // namespace plumbline::tests

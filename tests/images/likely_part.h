@@ -48,4 +48,7 @@ std::vector<Way> ways_to_ask(const std::vector<WayVerdict>& seen);
 /// than one explains it.
 std::string likely_part(const SceneVerdicts& scene);
 
+/// The part to look at where a way that cannot find all light gives the whole answer all the same.
+std::string part_that_sees(renderer::Strategy strategy);
+
 }  // namespace plumbline::tests

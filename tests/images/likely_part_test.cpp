@@ -181,5 +181,10 @@ TEST(LikelyPart, IsTheScalarBackendWhereItAloneIsWrong) {
   EXPECT_TRUE(starts(part, "the scalar backend")) << part;
 }
 
+TEST(LikelyPart, OfABlindWayThatSeesIsWhatMakesItBlind) {
+  EXPECT_NE(part_that_sees(renderer::Strategy::average).find("the weights"), std::string::npos);
+  EXPECT_NE(part_that_sees(renderer::Strategy::bsdf).find("which lights"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace plumbline::tests
