@@ -1,5 +1,6 @@
 """What `./run mutants` is built on, held to small sources: python3 -m unittest mutants_test."""
 
+import json
 import os
 import pathlib
 import subprocess
@@ -9,6 +10,7 @@ import unittest
 import named
 import scoring
 import summary
+import tree
 from schemata import HEADER, Mutant, with_branches
 
 SOURCE = """#include <cstdio>
@@ -100,15 +102,21 @@ class Scoring(unittest.TestCase):
 
     def test_an_equivalent_fault_is_no_survivor(self):
         def record(**more):
-            return {"file": "f", "line": 1, "fault": "x", "killed": False, "tests": 3, "exhausted": True, "seconds": 1.0,
+            return {"file": "f", "line": 1, "text": "line", "fault": "x", "killed": False, "tests": 3, "exhausted": True, "seconds": 1.0,
                     **more}
 
         seen, same, open_ = record(killed=True), record(pictures_differ=False), record(fault="y", pictures_differ=True)
         self.assertFalse(summary.is_equivalent(seen, set()))
         self.assertTrue(summary.is_equivalent(same, set()))
         self.assertFalse(summary.is_equivalent(open_, set()))
-        self.assertTrue(summary.is_equivalent(open_, {("f", "y")}))
+        self.assertTrue(summary.is_equivalent(open_, {("f", "line", "y")}))
         self.assertEqual(summary.set_row("set", [seen, same, open_], set())[1:5], ["3", "1", "1", "0.500"])
+
+    def test_a_known_equivalent_is_a_line_that_stands_there_and_a_reason(self):
+        for row in json.loads((tree.ROOT / "tests/mutants/equivalent.json").read_text()):
+            lines = [line.strip() for line in (tree.ROOT / row["file"]).read_text().splitlines()]
+            self.assertIn(row["line"], lines, f'{row["file"]}: a known equivalent of a line that has gone')
+            self.assertGreater(len(row["why"]), 20, row)
 
     def test_wilsons_interval(self):
         self.assertEqual(summary.interval(8, 10), "0.490 … 0.943")

@@ -56,9 +56,16 @@ def named_mutants():
 
 
 def known_equivalents():
+    """What a person has proved to change nothing: (file, text of the line, fault)."""
     if not EQUIVALENT.exists():
         return set()
-    return {(e["file"], e["fault"]) for e in json.loads(EQUIVALENT.read_text())}
+    return {(e["file"], e["line"], e["fault"]) for e in json.loads(EQUIVALENT.read_text())}
+
+
+def where(mutant):
+    """The file of a fault and the text of its line: a line's number changes with what stands above it."""
+    path = pathlib.Path(mutant.file)
+    return str(path.relative_to(tree.ROOT)), path.read_text().splitlines()[mutant.line - 1].strip()
 
 
 def mechanical_mutants(arguments, after, taken):
@@ -70,7 +77,7 @@ def mechanical_mutants(arguments, after, taken):
         if not count:
             continue
         free = [m for m in mechanical.all_candidates(commands, tree.ROOT, [part])
-                if (str(pathlib.Path(m.file).relative_to(tree.ROOT)), m.key()) not in skip
+                if (*where(m), m.key()) not in skip
                 and all(m.file != t.file or m.end <= t.start or t.end <= m.start for t in taken)]
         result += mechanical.choose(free, count, f"{arguments.seed or commit()} {part}", tree.ROOT)
     return [dataclasses.replace(m, number=after + i) for i, m in enumerate(result, 1)]
@@ -152,7 +159,8 @@ def learned_tests(mutants, jobs):
 def describe(mutants, bugs):
     """What a line of the results says of a fault before it is scored."""
     first = mutants[0]
-    record = {"number": first.number, "file": str(pathlib.Path(first.file).relative_to(tree.ROOT)), "line": first.line}
+    file, text = where(first)
+    record = {"number": first.number, "file": file, "line": first.line, "text": text}
     if first.number <= len(bugs):
         bug = bugs[first.number - 1]
         return {**record, "name": bug["id"], "like": bug["like"], "part": bug["part"], "changes": bug["changes"]}

@@ -21,7 +21,7 @@ def is_equivalent(record, known):
     """Whether a survivor changes nothing: known to, or no picture of the covering array is another one."""
     if record["killed"]:
         return False
-    return (record["file"], record.get("fault")) in known or record.get("pictures_differ") is False
+    return (record["file"], record.get("text"), record.get("fault")) in known or record.get("pictures_differ") is False
 
 
 def set_of(record):

@@ -161,6 +161,21 @@ TEST(Backends, EveryNumberOfPathsFillsItsBatches) {
   }
 }
 
+TEST(Backends, ARayDoesNotMeetThePlaneThatItStartsOn) {
+  // The middle of the scene is the camera's place exactly, on a plane that emits nothing; what
+  // emits is ahead of it.
+  SceneDescription description = empty_scene(kSmallWidth, kSmallHeight);
+  for (const double z : {-1.0, 0.0, 1.0}) {
+    description.shapes.push_back(
+        {RectangleShape{{-4, -4, z}, {8, 0, 0}, {0, 8, 0}, z > 0}, 0, Rgbd{z > 0 ? 1.0 : 0, 0, 0}});
+  }
+  RenderOptions options;
+  options.path.max_depth = 1;
+  const Pair pair = render_both(make_scene(description), options);
+  expect_same_bits(pair);
+  EXPECT_EQ(pair.batched.film.mean().r, 1.0);
+}
+
 TEST(Backends, AreFoundByName) {
   for (const Backend backend : kBackends) EXPECT_EQ(from_name(kBackends, name(backend)), backend);
   EXPECT_EQ(from_name(kBackends, "gpu"), std::nullopt);
