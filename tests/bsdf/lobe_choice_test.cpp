@@ -194,5 +194,19 @@ TYPED_TEST(LobeChoice, IsMadeWithItsStatedProbability) {
   }
 }
 
+TYPED_TEST(LobeChoice, ProbabilitiesOfAllLobesSumToOne) {
+  for (const Example& example : examples_of<TypeParam>()) {
+    for (const float z : {-1.0f, -0.9f, -0.4f, -0.01f, 0.01f, 0.4f, 0.9f, 1.0f}) {
+      if (example.gives.of(z > 0) == Gives::nothing) continue;
+      const Vec3f wo{std::sqrt((1 - z) * (1 + z)), 0, z};
+      float sum = 0;
+      for (std::uint32_t lobe = 0; lobe < example.bsdf.lobe_count(); ++lobe) {
+        sum += example.bsdf.template lobe_probability<float>(wo, lobe);
+      }
+      EXPECT_NEAR(sum, 1, 4e-7f) << example.name << " cosθo " << z;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::tests

@@ -186,6 +186,22 @@ TEST(BackendSettings, ThatDifferAreNamedByWhatTheyShare) {
   EXPECT_NE(where_to_look(rows, rows).find("look at what all paths do"), std::string::npos);
 }
 
+/// A loop of its own is for one exponent, not for its neighbours.
+TEST(BackendSettings, AnyParameterOfAHeuristicGivesTheSameBits) {
+  SceneCache scenes;
+  const std::vector<Weighting> weightings{{Heuristic::power, 0.5f}, {Heuristic::power, 1},
+                                          {Heuristic::power, 3},    {Heuristic::power, 4},
+                                          {Heuristic::cutoff, 0},   {Heuristic::cutoff, 0.5f},
+                                          {Heuristic::cutoff, 1}};
+  for (const Weighting& weighting : weightings) {
+    SCOPED_TRACE(describe(weighting));
+    RenderOptions options;
+    options.samples_per_pixel = kSmallSamples;
+    options.path = path_options({Strategy::mis}, weighting, 5, kNoRoulette);
+    expect_same_bits(render_both(scenes.get(0, 0), options));
+  }
+}
+
 TEST(BackendSettings, EachIsSeenInTheImage) {
   SceneCache scenes;
   // Lamps that differ; roulette from depth 3 on.

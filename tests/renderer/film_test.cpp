@@ -89,6 +89,13 @@ TEST(Film, AReplicateIsOneValueHoweverFewItsSamples) {
   EXPECT_EQ(whole.non_finite, 1u);
 }
 
+TEST(Film, CountsWhatIsNotFiniteInAllPixels) {
+  Film film(2, 1);
+  EXPECT_EQ(film.non_finite(), 0u);
+  for (int x : {0, 0, 1}) film.at(x, 0).add({std::numeric_limits<float>::quiet_NaN(), 0, 0});
+  EXPECT_EQ(film.non_finite(), 3u);
+}
+
 TEST(Film, RelativeErrorFollowsItsDefinition) {
   Film film(1, 1);
   film.at(0, 0).add({1, 1, 1});

@@ -2,10 +2,14 @@
 #include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/core/render/tiles.h>
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstring>
+#include <set>
+#include <thread>
 
 #include "scenes.h"
 
@@ -50,6 +54,35 @@ TEST(Render, AnotherSeedGivesAnotherImage) {
   const RenderResult one = render(scene, options);
   options.seed = 8;
   EXPECT_FALSE(same_bits(one.film, render(scene, options).film));
+}
+
+/// A limit that no machine reaches ends nothing, and one that has passed ends all after the first
+/// pass; what lies between ends by itself.
+TEST(Render, EndsWhenItsTimeIsUp) {
+  const Scene scene = make_scene(tests::closed_sphere(4, 4));
+  RenderOptions options = options_for(Strategy::mis);
+  options.samples_per_pixel = 1u << 30;
+  for (const double seconds : {1e-9, 0.05}) {
+    options.seconds = seconds;
+    const RenderResult result = render(scene, options);
+    const auto samples = result.film.pixels().front().count;
+    EXPECT_GE(samples, 1u);
+    EXPECT_LT(samples, options.samples_per_pixel);
+    EXPECT_TRUE(seconds > 1e-6 || samples == 1) << samples;
+  }
+  options.samples_per_pixel = 8;
+  options.seconds = 1e6;
+  EXPECT_EQ(render(scene, options).film.pixels().front().count, 8u);
+}
+
+TEST(TileThreads, AreAsManyAsAskedFor) {
+  TileThreads one(1);
+  std::set<std::thread::id> seen;
+  one.run(64, 64, 8, [&](const Tile&) {
+    seen.insert(std::this_thread::get_id());
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  });
+  EXPECT_EQ(seen.size(), 1u);
 }
 
 TEST(Render, PassesUntilAnErrorIsReachedGiveTheBitsOfOnePass) {

@@ -172,6 +172,10 @@ const std::vector<Refusal> kRefusals = {
     {"NoIndexAtAll",
      R"(<bsdf type="conductor" id="a"><rgb name="eta" value="0"/><rgb name="k" value="0"/></bsdf>)",
      R"(3: <rgb name="eta">: η and k must not both be 0: their sum is at least 0.01)"},
+    {"MetalOfNearlyNothing",
+     "<bsdf type=\"conductor\" id=\"a\"><rgb name=\"eta\" value=\"0.006\"/>"
+     "<rgb name=\"k\" value=\"1, 0.003, 1\"/></bsdf>",
+     R"(3: <rgb name="eta">: η and k must not both be 0: their sum is at least 0.01)"},
     {"NegativeK", R"(<bsdf type="conductor" id="a"><rgb name="k" value="1, -1, 1"/></bsdf>)",
      R"(3: <rgb name="k">: must lie between 0 and 1000)"},
     {"UnknownGlass",

@@ -59,6 +59,9 @@ const std::vector<Refusal> kBodies = {
      "<emitter type=\"sun\"><vector name=\"direction\" z=\"-1\"/><float name=\"half_angle\" "
      "value=\"91\"/><rgb name=\"radiance\" value=\"1\"/></emitter>",
      R"(3: <float name="half_angle">: must lie between 0.001 and 90 degrees)"},
+    {"TransformWithNumbersOfItsOwn",
+     "<shape type=\"disk\"><transform name=\"to_world\" x=\"1\"/></shape>",
+     R"(3: <transform name="to_world"> has no attribute "x"; supported: name)"},
     {"UnknownTransform",
      "<shape type=\"disk\"><transform name=\"to_world\">\n<lookAt/></transform></shape>",
      R"(4: <lookAt> is not a transform operation; did you mean "lookat"?)"},
