@@ -49,6 +49,23 @@ TEST(Waiver, LeavesOtherFailuresAlone) {
   EXPECT_NE(report.summary().find("coat/front 80°/energy"), std::string::npos);
 }
 
+/// * stands for any text, also for none, wherever it is.
+TEST(Waiver, NamesChecksByPatterns) {
+  const auto names = [](const std::string& pattern) {
+    const Report report =
+        waive(Report({result("coat/energy", Verdict::fail)}), {waiver(pattern)}, kToday);
+    return report.ok();
+  };
+  for (const char* pattern : {"coat/energy", "coat/energy*", "*coat/energy", "*", "coat*energy",
+                              "coat*/*energy", "c*t/*y", "**"}) {
+    EXPECT_TRUE(names(pattern)) << pattern;
+  }
+  for (const char* pattern :
+       {"coat", "energy", "coat/energy/*", "*/coat/energy", "c*x*y", "coat/e"}) {
+    EXPECT_FALSE(names(pattern)) << pattern;
+  }
+}
+
 /// Why a waiver itself fails.
 std::string complaint(const Waiver& w) {
   const Report report = waive(of_a_coat(), {w}, kToday);
