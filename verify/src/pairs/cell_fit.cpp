@@ -50,10 +50,10 @@ std::vector<Side> sides_of(int dimension) {
   return sides;
 }
 
-const std::array<std::vector<Side>, 2> kSides = {sides_of(1), sides_of(2)};
+const std::array<std::vector<Side>, 2> kSidesByDimension = {sides_of(1), sides_of(2)};
 
 const std::vector<Side>& border(int dimension) {
-  return kSides[static_cast<std::size_t>(dimension - 1)];
+  return kSidesByDimension[static_cast<std::size_t>(dimension - 1)];
 }
 
 Point2 center_of(const Box& box) {
