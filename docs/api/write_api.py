@@ -14,6 +14,7 @@ from pathlib import Path
 # In the order in which a reader wants them; what these need, detail/, comes after.
 HEADERS = ["bsdf", "conventions", "pair", "joint", "stochastic", "dependent", "mean", "ratio", "image"]
 HEADERS += ["waiver", "gtest", "autodiff"]
+HEADERS += ["history/duet"]
 
 INTRODUCTION = """# plumbline::verify
 
