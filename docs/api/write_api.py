@@ -14,7 +14,8 @@ from pathlib import Path
 # In the order in which a reader wants them; what these need, detail/, comes after.
 HEADERS = ["bsdf", "conventions", "pair", "joint", "stochastic", "dependent", "mean", "ratio", "image"]
 HEADERS += ["waiver", "gtest", "autodiff"]
-HEADERS += ["history/duet"]
+HEADERS += ["history/" + name for name in ("confidence_sequence", "regressions", "duet")]
+HEADERS += ["history/" + name for name in ("change_points", "distribution_shift")]
 
 INTRODUCTION = """# plumbline::verify
 

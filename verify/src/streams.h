@@ -75,7 +75,10 @@ enum class Stream : std::uint64_t {
   contribution_points = 93,   ///< at which the functions are integrated
   chains_pilot = 94,          ///< starting points that shape regions
   chains = 95,                ///< chains that have made steps
-  chains_start = 96           ///< chains that have made none
+  chains_start = 96,          ///< chains that have made none
+
+  // Of histories.
+  nights = 100  ///< permutations of nights
 };
 
 inline Random random_for(std::uint64_t seed, Stream stream) {

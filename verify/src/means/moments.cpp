@@ -4,6 +4,8 @@
 
 #include <plumbline/verify/detail/moments.h>
 
+#include "means/central_moments.h"
+
 namespace plumbline::verify {
 
 namespace {
@@ -42,13 +44,12 @@ void Moments::merge(const Moments& other) {
   rejected_ += other.rejected_;
   non_finite_ += other.non_finite_;
   if (other.count_ == 0) return;
-  const double na = static_cast<double>(count_), nb = static_cast<double>(other.count_);
-  const double n = na + nb;
-  const double delta = other.mean_ - mean_;
-  m3_ += other.m3_ + delta * delta * delta * na * nb * (na - nb) / (n * n) +
-         3 * delta * (na * other.m2_ - nb * m2_) / n;
-  m2_ += other.m2_ + delta * delta * na * nb / n;
-  mean_ += delta * nb / n;
+  const CentralMoments both =
+      merged({static_cast<double>(count_), mean_, m2_, m3_},
+             {static_cast<double>(other.count_), other.mean_, other.m2_, other.m3_});
+  mean_ = both.mean;
+  m2_ = both.m2;
+  m3_ = both.m3;
   count_ += other.count_;
   smallest_ = std::min(smallest_, other.smallest_);
   largest_ = std::max(largest_, other.largest_);
@@ -69,9 +70,7 @@ double Moments::skewness() const {
 }
 
 double Moments::largest_share() const {
-  if (!(m2_ > 0)) return 0;
-  const double deviation = std::max(largest_ - mean_, mean_ - smallest_);
-  return std::min(1.0, deviation * deviation / m2_);
+  return verify::largest_share({static_cast<double>(count_), mean_, m2_, m3_}, smallest_, largest_);
 }
 
 double Moments::tail_index() const {

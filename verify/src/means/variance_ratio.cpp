@@ -8,6 +8,7 @@
 
 #include "distributions.h"
 #include "means/mean_judgement.h"
+#include "means/ratio_claim.h"
 #include "text.h"
 
 namespace plumbline::verify {
@@ -110,30 +111,6 @@ double claim_p_value(const VarianceRatioOptions& options, double log_ratio,
   return p;
 }
 
-/// @param proven  interval of a pass
-/// @param sure    interval of a fail
-void judge_claim(const VarianceRatioOptions& options, const Interval& proven, const Interval& sure,
-                 CheckResult& r) {
-  const bool breaks_low = options.at_least && sure.high < *options.at_least;
-  const bool breaks_high = options.at_most && sure.low > *options.at_most;
-  const bool keeps_low = !options.at_least || proven.low >= *options.at_least;
-  const bool keeps_high = !options.at_most || proven.high <= *options.at_most;
-  if (breaks_low) {
-    r.verdict = Verdict::fail;
-    r.reason = "the ratio is at most " + number(sure.high) + ", the claim is at least " +
-               number(*options.at_least);
-  } else if (breaks_high) {
-    r.verdict = Verdict::fail;
-    r.reason = "the ratio is at least " + number(sure.low) + ", the claim is at most " +
-               number(*options.at_most);
-  } else if (keeps_low && keeps_high) {
-    r.verdict = Verdict::pass;
-  } else {
-    r.reason = "the interval straddles the claim";
-    r.advice = "larger batches narrow it, all of them";
-  }
-}
-
 CheckResult judge_ratio(const VarianceRatioOptions& options, const LeaveOneOut& a,
                         const LeaveOneOut& b) {
   CheckResult r;
@@ -162,6 +139,7 @@ CheckResult judge_ratio(const VarianceRatioOptions& options, const LeaveOneOut& 
   const double log_ratio = std::log(a.all / b.all);
   const JackknifedLog jackknifed = jackknife(a, b);
   const double error = jackknifed.error;
+  r.figures.push_back({"error of the logarithm", error});
   const auto interval = [&](double level) {
     return skewed_interval(log_ratio, error, jackknifed.skewness, student_quantile(level, degrees));
   };
@@ -181,7 +159,7 @@ CheckResult judge_ratio(const VarianceRatioOptions& options, const LeaveOneOut& 
                " % of a variance (limit 25 %): its tail decides the ratio";
     r.advice = "more and larger batches, until no single sample carries a variance";
   } else {
-    judge_claim(options, proven, {std::exp(fail.low), std::exp(fail.high)}, r);
+    judge_ratio_claim(options, proven, {std::exp(fail.low), std::exp(fail.high)}, r);
   }
   return r;
 }
@@ -200,6 +178,28 @@ CheckResult check(const VarianceRatioOptions& options, std::span<const Batch> a,
 }
 
 }  // namespace
+
+void judge_ratio_claim(const VarianceRatioOptions& options, const Interval& proven,
+                       const Interval& sure, CheckResult& r) {
+  const bool breaks_low = options.at_least && sure.high < *options.at_least;
+  const bool breaks_high = options.at_most && sure.low > *options.at_most;
+  const bool keeps_low = !options.at_least || proven.low >= *options.at_least;
+  const bool keeps_high = !options.at_most || proven.high <= *options.at_most;
+  if (breaks_low) {
+    r.verdict = Verdict::fail;
+    r.reason = "the ratio is at most " + number(sure.high) + ", the claim is at least " +
+               number(*options.at_least);
+  } else if (breaks_high) {
+    r.verdict = Verdict::fail;
+    r.reason = "the ratio is at least " + number(sure.low) + ", the claim is at most " +
+               number(*options.at_most);
+  } else if (keeps_low && keeps_high) {
+    r.verdict = Verdict::pass;
+  } else {
+    r.reason = "the interval straddles the claim";
+    r.advice = "larger batches narrow it, all of them";
+  }
+}
 
 CheckResult check_variance_ratio(const VarianceRatioOptions& options, std::span<const Moments> a,
                                  std::span<const Moments> b) {
