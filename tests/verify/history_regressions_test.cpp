@@ -12,28 +12,19 @@
 
 #include <plumbline/verify/history/regressions.h>
 
-#include "history_noise.h"
+#include "simulated_history.h"
 
 namespace plumbline::verify::history {
 namespace {
 
-/// Nights of fifteen values that depend on each other, around a level that depends on the night
-/// before, too. `true_level` is relative to 1 s.
+/// Simulated nights of a number with a name.
 Series noisy_nights(const char* name, int nights, double spread,
-                    const std::function<double(int)>& true_level, std::set<int> missing = {}) {
+                    const std::function<double(int)>& true_level,
+                    const std::set<int>& missing = {}) {
   Random random(tests::check_seed(name));
-  CorrelatedNoise night(random, 0.3);
-  Series series;
+  Series series = simulated_history(random, nights, {spread}, true_level);
   series.name = name;
-  for (int i = 0; i < nights; ++i) {
-    Night& next = series.nights.emplace_back();
-    next.commit = "c" + std::to_string(i);
-    const double level = true_level(i) * std::exp(spread * night.next());
-    CorrelatedNoise within(random, 0.5);
-    for (int k = 0; k < 15 && missing.count(i) == 0; ++k) {
-      next.values.push_back(level * std::exp(spread * within.next()));
-    }
-  }
+  for (const int night : missing) series.nights[static_cast<std::size_t>(night)].values.clear();
   return series;
 }
 
@@ -151,9 +142,9 @@ TEST(History, MissingNightsWidenTheRangeOfCommits) {
 
 TEST(History, AChangeTakesThreeNightsAndTenInAll) {
   const auto judged = [](int nights, int from) {
-    return judge_history(noisy_nights("history/few", nights, 0.01,
-                                      [&](int i) { return i < from ? 1.0 : 1.3; }))
-        .changes.size();
+    const Series series =
+        noisy_nights("history/few", nights, kSpread, [&](int i) { return i < from ? 1.0 : 2.0; });
+    return judge_history(series).changes.size();
   };
   EXPECT_EQ(judged(32, 30), 0u);
   EXPECT_EQ(judged(33, 30), 1u);

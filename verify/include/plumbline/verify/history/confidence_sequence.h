@@ -40,7 +40,7 @@ ErrorBudget night_budget();
 ///
 /// √((x + 1)/x · (ln(x + 1) − 2 ln level)) with x = tρ²; ρ makes it least at the target, where x
 /// solves x = ln(x + 1) − 2 ln level. At a level of 1e-12 it is 7.8 there, against 7.1 for a single
-/// look; at a thirtieth of the target 9.3.
+/// look; at a thirtieth of the target 9.2.
 ///
 /// @param count, target  values so far, and when the interval is to be narrowest; both > 0. The
 ///                       target must not depend on the values.

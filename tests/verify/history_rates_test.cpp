@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+#include <plumbline_tests/support.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <plumbline/verify/history/regressions.h>
+#include <plumbline/verify/ratio.h>
+
+#include "simulated_history.h"
+
+/// How often `judge_history` is wrong, and how small a step it finds: the numbers of
+/// docs/statistics.md, "Over nights". The gate simulates few and short histories, the night those
+/// of the tables: PLUMBLINE_NIGHTLY=1 build/release/tests/verify/history_test
+/// --gtest_filter='HistoryRates.*'
+namespace plumbline::verify::history {
+namespace {
+
+/// Whether a history of nights without any change ever shows one, judged each night.
+bool ever_alarms(Random& random, int nights, const NightNoise& noise,
+                 const HistoryOptions& options) {
+  CorrelatedNoise night_noise(random, noise.correlation);
+  Series series;
+  for (int i = 0; i < nights; ++i) {
+    series.nights.push_back(simulated_night(random, noise, night_noise, 1));
+    if (!judge_history(series, options).changes.empty()) return true;
+  }
+  return false;
+}
+
+/// Histories that show a change, of so many, against the share that the options promise.
+CheckResult alarms(const std::string& subject, std::uint64_t histories, int nights,
+                   const NightNoise& noise, const HistoryOptions& options) {
+  ProportionOptions claim;
+  claim.subject = subject;
+  claim.seed = tests::check_seed(subject);
+  claim.at_most = options.false_alarms_per_year / options.tracked_numbers * nights / 365;
+  Random random(claim.seed);
+  std::uint64_t hits = 0;
+  for (std::uint64_t i = 0; i < histories; ++i) {
+    hits += ever_alarms(random, nights, noise, options) ? 1u : 0u;
+  }
+  return check_proportion(claim, hits, histories);
+}
+
+HistoryOptions with_numbers(int tracked) {
+  HistoryOptions options;
+  options.tracked_numbers = tracked;
+  return options;
+}
+
+TEST(HistoryRates, FalseAlarmsAreAsSeldomAsPromised) {
+  tests::expect_verdict(alarms("history/alarms/60 nights", 300, 60, {}, with_numbers(1)));
+  if (!tests::nightly()) return;
+  tests::expect_verdict(
+      alarms("history/alarms/a year, 100 numbers", 2000, 365, {}, with_numbers(100)));
+  NightNoise uncorrelated;
+  uncorrelated.correlation = 0;
+  tests::expect_verdict(
+      alarms("history/alarms/uncorrelated nights", 300, 365, uncorrelated, with_numbers(10)));
+}
+
+TEST(HistoryRates, NightsThatAreMoreCorrelatedThanAssumedAlarmTooOften) {
+  NightNoise noise;
+  noise.correlation = 0.9;
+  HistoryOptions options = with_numbers(1);
+  options.night_correlation = 0;
+  CheckResult r = alarms("history/alarms/correlation not assumed", 60, 60, noise, options);
+  r.expected = Verdict::fail;
+  tests::expect_verdict(r);
+}
+
+/// The share of histories in which a step in their middle is found, against the stated 95 %.
+CheckResult found(const std::string& subject, std::uint64_t histories, int nights, double spread,
+                  double step, double at_least) {
+  ProportionOptions claim;
+  claim.subject = subject;
+  claim.seed = tests::check_seed(subject);
+  claim.at_least = at_least;
+  Random random(claim.seed);
+  std::uint64_t hits = 0;
+  for (std::uint64_t i = 0; i < histories; ++i) {
+    const Series series = simulated_history(
+        random, nights, {spread}, [&](int night) { return night < nights / 2 ? 1 : 1 + step; });
+    const std::vector<Change> changes = judge_history(series).changes;
+    hits +=
+        std::any_of(changes.begin(), changes.end(), [](const Change& c) { return c.regression; })
+            ? 1u
+            : 0u;
+  }
+  return check_proportion(claim, hits, histories);
+}
+
+/// A row of the table of steps that are found.
+struct Row {
+  int nights = 0;
+  double spreads[4] = {};  ///< at 0.5, 1, 2 and 5 % from night to night, in units of that
+};
+
+constexpr Row kFoundSteps[] = {{10, {35, 38, 45, 80}},
+                               {30, {5.2, 5.2, 5.4, 5.8}},
+                               {60, {3, 3, 3, 3.2}},
+                               {120, {2.4, 2.4, 2.4, 2.5}}};
+
+TEST(HistoryRates, StepsOfTheTableAreFound) {
+  // Of 200 in the gate 8.6 standard errors of a share of 0.98 are 0.085.
+  tests::expect_verdict(found("history/found/60 nights, 1 %", 200, 60, 0.01, 0.03, 0.88));
+  if (!tests::nightly()) return;
+  constexpr double kSpreads[] = {0.005, 0.01, 0.02, 0.05};
+  for (const Row& row : kFoundSteps) {
+    for (int i = 0; i < 4; ++i) {
+      const double step = row.spreads[i] * kSpreads[i];
+      const std::string subject = "history/found/" + std::to_string(row.nights) + " nights, " +
+                                  std::to_string(kSpreads[i]) + ", step " + std::to_string(step);
+      tests::expect_verdict(found(subject, 1000, row.nights, kSpreads[i], step, 0.95));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::verify::history
