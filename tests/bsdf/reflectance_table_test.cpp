@@ -59,5 +59,18 @@ TEST(ReflectanceTable, IsTakenByMetalsAndFilms) {
   EXPECT_TRUE(FilmOnDielectric({100, 1.3f}, 1.5f).tabulated());
 }
 
+/// More fringes than pieces.
+TEST(ReflectanceTable, IsNotTakenWhereAFilmHasNone) {
+  const FilmOnDielectric thick({1e6f, 1.3f}, 1.5f);
+  ASSERT_FALSE(thick.tabulated());
+  for (const float cosine : {0.1f, 0.5f, 0.9f}) {
+    const double cos2 = static_cast<double>(cosine) * static_cast<double>(cosine);
+    const auto exact = thick.split<double>(cos2, true);
+    const auto rendered = thick.split<float>(cos2, true);
+    EXPECT_NEAR(static_cast<double>(rendered.reflected.g), exact.reflected.g, 1e-3) << cosine;
+    EXPECT_NEAR(static_cast<double>(rendered.transmitted.b), exact.transmitted.b, 1e-3) << cosine;
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::renderer
