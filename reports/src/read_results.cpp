@@ -58,6 +58,12 @@ void add_document(Results& results, const std::string& text, const fs::path& dir
     results.figures.push_back(parse_figure(text));
   } else if (format == detail::kTableFormat) {
     results.tables.push_back(parse_table(text));
+  } else if (format == detail::kDistributionFormat) {
+    results.distributions.push_back(parse_distribution(text));
+  } else if (format == detail::kCounterFormat) {
+    results.counters.push_back(parse_counter(text));
+  } else if (format == detail::kSeedRunFormat) {
+    results.seed_runs.push_back(parse_seed_run(text));
   } else if (format == detail::kEnvironmentFormat) {
     add_environment(results.environments, parse_environment(text));
   } else if (format.empty()) {
@@ -97,6 +103,7 @@ bool holds_nothing(const Results& results) {
   return results.checks.empty() && results.renders.empty() && results.speed.empty() &&
          results.ray_costs.empty() && results.bars.empty() && results.stability.empty() &&
          results.causes.empty() && results.figures.empty() && results.tables.empty() &&
+         results.distributions.empty() && results.counters.empty() && results.seed_runs.empty() &&
          results.warnings.empty();
 }
 

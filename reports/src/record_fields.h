@@ -19,6 +19,9 @@ inline constexpr const char* kStabilityFormat = "plumbline.stability/1";
 inline constexpr const char* kCausesFormat = "plumbline.causes/1";
 inline constexpr const char* kFigureFormat = "plumbline.figure/1";
 inline constexpr const char* kTableFormat = "plumbline.table/1";
+inline constexpr const char* kDistributionFormat = "plumbline.distribution/1";
+inline constexpr const char* kCounterFormat = "plumbline.counter/1";
+inline constexpr const char* kSeedRunFormat = "plumbline.seed_run/1";
 
 /// Whether `T`, const or not, is `Record`: one function serves the writer and the reader.
 template <class T, class Record>
@@ -80,6 +83,41 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("indicative", r.indicative);
   visit("comparison", r.comparison);
   visit("note", r.note);
+}
+
+/// The better side of a distribution is a word in its record.
+enum class Better { lower, higher };
+
+template <>
+struct EnumWords<Better> {
+  static constexpr std::array<std::pair<Better, const char*>, 2> kWords{
+      {{Better::lower, "lower"}, {Better::higher, "higher"}}};
+};
+
+template <class Visitor, Is<Distribution> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("name", r.name);
+  visit("unit", r.unit);
+  Better better = r.lower_is_better ? Better::lower : Better::higher;
+  visit("better", better);
+  if constexpr (!std::is_const_v<Record>) r.lower_is_better = better == Better::lower;
+  visit("values", r.values);
+}
+
+template <class Visitor, Is<Counter> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("name", r.name);
+  visit("unit", r.unit);
+  visit("value", r.value);
+}
+
+template <class Visitor, Is<SeedRun> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("seed", r.seed);
+  visit("commit", r.commit);
+  visit("time", r.time);
+  visit("tests", r.tests);
+  visit("failures", r.failures);
 }
 
 template <class Visitor, Is<StabilityRecord> Record>

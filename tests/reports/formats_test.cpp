@@ -43,6 +43,9 @@ TEST(Formats, EveryRecordSurvivesTheRoundTrip) {
   EXPECT_EQ(parse_causes_record(to_json(sample_causes_record())), sample_causes_record());
   EXPECT_EQ(parse_figure(to_json(sample_figure())), sample_figure());
   EXPECT_EQ(reports::parse_table(to_json(sample_table())), sample_table());
+  EXPECT_EQ(parse_distribution(to_json(sample_distribution())), sample_distribution());
+  EXPECT_EQ(parse_counter(to_json(sample_counter())), sample_counter());
+  EXPECT_EQ(parse_seed_run(to_json(sample_seed_run())), sample_seed_run());
 }
 
 TEST(Formats, CheckIsReadBackFieldByField) {

@@ -167,4 +167,14 @@ reports::Table sample_table() {
   return table;
 }
 
+reports::Distribution sample_distribution() {
+  return {"speed/veach", "samples/s", false, {1.5, 2, 2.5}};
+}
+
+reports::Counter sample_counter() { return {"rays", "rays of a path", 12'345'678'901}; }
+
+reports::SeedRun sample_seed_run() {
+  return {18'446'744'073'709'551'614u, "0123abcd-dirty", "2024-03-02T12:00:00Z", 2500, {"A.B"}};
+}
+
 }  // namespace plumbline::tests

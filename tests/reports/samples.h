@@ -16,5 +16,8 @@ reports::StabilityRecord sample_stability_record();
 reports::CausesRecord sample_causes_record();
 reports::Figure sample_figure();
 reports::Table sample_table();
+reports::Distribution sample_distribution();
+reports::Counter sample_counter();
+reports::SeedRun sample_seed_run();
 
 }  // namespace plumbline::tests

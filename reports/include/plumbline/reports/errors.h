@@ -17,4 +17,11 @@ class ResultsError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A history that cannot be used: no file, no database, of another program or of a newer version.
+/// `what()` names the file and what to do.
+class HistoryError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace plumbline::reports

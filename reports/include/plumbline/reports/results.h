@@ -11,6 +11,7 @@
 #include <plumbline/reports/environment.h>
 #include <plumbline/reports/errors.h>
 #include <plumbline/reports/figure.h>
+#include <plumbline/reports/measured.h>
 #include <plumbline/reports/render_record.h>
 #include <plumbline/reports/stability_record.h>
 #include <plumbline/reports/table.h>
@@ -46,6 +47,8 @@ class ResultLog {
   void append(const CausesRecord& record) { append_line(to_json(record)); }
   void append(const Figure& figure) { append_line(to_json(figure)); }
   void append(const Table& table) { append_line(to_json(table)); }
+  void append(const Distribution& distribution) { append_line(to_json(distribution)); }
+  void append(const Counter& counter) { append_line(to_json(counter)); }
   void append(const RunEnvironment& environment) { append_line(to_json(environment)); }
 
  private:
@@ -80,6 +83,9 @@ struct Results {
   std::vector<CausesRecord> causes;
   std::vector<Figure> figures;
   std::vector<Table> tables;
+  std::vector<Distribution> distributions;
+  std::vector<Counter> counters;
+  std::vector<SeedRun> seed_runs;
   std::vector<RunEnvironment> environments;  ///< one per build and machine, the latest of each
   std::vector<ReadWarning> warnings;
 };
