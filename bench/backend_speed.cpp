@@ -27,7 +27,8 @@ struct BackendComparison {
   Estimate speed;                // of the batches over the plain loop
 };
 
-BackendComparison compare(const NamedScene& named, const BackendWork& work) {
+BackendComparison compare(const NamedScene& named, const BackendWork& work,
+                          reports::ResultLog& log) {
   const auto description = load_at_size(named.name, work.side, work.side);
   const renderer::Scene scene = renderer::make_scene(description);
   renderer::RenderOptions options;
@@ -47,6 +48,9 @@ BackendComparison compare(const NamedScene& named, const BackendWork& work) {
     scalar.push_back(ns_per_path(renderer::Backend::scalar));
     ratios.push_back(scalar.back() / batched.back());
   }
+  const std::string name = fmt::format("backend_speed/{}/{} spp", named.name, work.samples);
+  keep(log, name + "/batched", "ns/path", batched);
+  keep(log, name + "/scalar", "ns/path", scalar);
   return {median_with_interval(std::move(batched)).value,
           median_with_interval(std::move(scalar)).value, median_with_interval(std::move(ratios))};
 }
@@ -64,7 +68,7 @@ void measure_backend_speed(reports::ResultLog& log, bool full) {
       work.side, work.samples, work.repetitions);
   table.columns = {"scene", "batched [ns/path]", "plain loop [ns/path]", "plain / batched"};
   for (const NamedScene& scene : kTracedScenes) {
-    const BackendComparison c = compare(scene, work);
+    const BackendComparison c = compare(scene, work, log);
     table.rows.push_back({scene.title, fmt::format("{:.0f}", c.batched_ns),
                           fmt::format("{:.0f}", c.scalar_ns), text_of(c.speed)});
     if (scene.name != std::string("cornell")) continue;

@@ -84,6 +84,10 @@ void measure(const Comparison& comparison, reports::ResultLog& log, bool full) {
     times.push_back(result.seconds * shrink * shrink);
   }
   const Estimate error = mean_with_interval(errors);
+  std::vector<double> costs;
+  for (const double seconds : times) costs.push_back(error.value * seconds);
+  keep(log, fmt::format("equal_error/{}{}", comparison.scene, full ? "" : ", small"), "relMSE × s",
+       std::move(costs));
   const Estimate time = median_with_interval(std::move(times));
 
   reports::Bar bar;

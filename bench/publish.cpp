@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plumbline::bench {
@@ -33,6 +34,11 @@ void publish(reports::ResultLog& log, const reports::Bar& bar) {
              verdict(bar), bar.note);
   if (!bar.comparison.empty()) fmt::print("    {}\n", bar.comparison);
   log.append(bar);
+}
+
+void keep(reports::ResultLog& log, std::string name, std::string unit,
+          std::vector<double> repetitions) {
+  log.append(reports::Distribution{std::move(name), std::move(unit), true, std::move(repetitions)});
 }
 
 std::string text_of(const Estimate& e) {

@@ -40,7 +40,7 @@ struct RayShares {
   Estimate share, one_wide;     // of the render: as recorded, and one ray per call
 };
 
-RayShares measure(const ReplayedScene& replayed, int repetitions) {
+RayShares measure(const ReplayedScene& replayed, int repetitions, reports::ResultLog& log) {
   const auto description = load_at_size(replayed.name, replayed.width, replayed.height);
   const Scene scene = make_scene(description);
   renderer::RenderOptions options;
@@ -72,6 +72,11 @@ RayShares measure(const ReplayedScene& replayed, int repetitions) {
   }
   const double paths = static_cast<double>(replayed.width) * replayed.height * replayed.samples;
   const auto rays = static_cast<double>(recorded.rays());
+  std::vector<double> render_ns;
+  for (const double seconds : render_times) render_ns.push_back(seconds * 1e9 / paths);
+  keep(log, fmt::format("ray_replay/{}/render", replayed.name), "ns/path", std::move(render_ns));
+  log.append(
+      reports::Counter{fmt::format("ray_replay/{}/rays", replayed.name), "rays", recorded.rays()});
   return {rays / paths,
           rays / static_cast<double>(recorded.calls()),
           median_with_interval(std::move(render_times)).value * 1e9 / paths,
@@ -113,7 +118,7 @@ void measure_ray_replay(reports::ResultLog& log, bool full) {
                    "replay / render",
                    "one by one / render"};
   for (const ReplayedScene& scene : kScenes) {
-    const RayShares s = measure(scene, repetitions);
+    const RayShares s = measure(scene, repetitions, log);
     table.rows.push_back({scene.title, fmt::format("{:.2f}", s.rays_per_path),
                           fmt::format("{:.1f}", s.rays_per_call),
                           fmt::format("{:.0f}", s.render_ns), fmt::format("{:.0f}", s.replay_ns),

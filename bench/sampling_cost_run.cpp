@@ -2,19 +2,24 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "publish.h"
 #include "sampling_cost.h"
 
 namespace plumbline::bench {
 namespace {
 
-/// Prints as Google Benchmark does, and keeps medians with their spread.
+/// Prints as Google Benchmark does, but for single repetitions, and keeps these, and medians with
+/// their spread.
 class KeepingReporter : public benchmark::ConsoleReporter {
  public:
-  explicit KeepingReporter(reports::Table& table) : ConsoleReporter(OO_Tabular), table_(table) {}
+  KeepingReporter(reports::Table& table, reports::ResultLog& log)
+      : ConsoleReporter(OO_Tabular), table_(table), log_(log) {}
 
   void ReportRuns(const std::vector<Run>& runs) override {
+    if (runs[0].run_type == Run::RT_Iteration) return keep_repetitions(runs);
     std::string median, spread;
     for (const Run& run : runs) {
       if (run.aggregate_name == "median") median = fmt::format("{:.2f}", run.GetAdjustedCPUTime());
@@ -25,7 +30,14 @@ class KeepingReporter : public benchmark::ConsoleReporter {
   }
 
  private:
+  void keep_repetitions(const std::vector<Run>& runs) {
+    std::vector<double> repetitions;
+    for (const Run& run : runs) repetitions.push_back(run.GetAdjustedCPUTime());
+    keep(log_, runs[0].run_name.str(), "ns", std::move(repetitions));
+  }
+
   reports::Table& table_;
+  reports::ResultLog& log_;
 };
 
 }  // namespace
@@ -39,8 +51,7 @@ void measure_sampling_cost(reports::ResultLog& log, const std::filesystem::path&
                                  "--benchmark_out=" + (results / "sampling_cost.json").string(),
                                  "--benchmark_enable_random_interleaving=true",
                                  std::string("--benchmark_min_time=") + (full ? "0.05" : "0.01"),
-                                 fmt::format("--benchmark_repetitions={}", repetitions),
-                                 "--benchmark_report_aggregates_only=true"};
+                                 fmt::format("--benchmark_repetitions={}", repetitions)};
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   int argc = static_cast<int>(argv.size());
@@ -53,7 +64,7 @@ void measure_sampling_cost(reports::ResultLog& log, const std::filesystem::path&
       repetitions);
   table.columns = {"function", "median [ns]", "standard deviation [ns]"};
   benchmark::Initialize(&argc, argv.data());
-  KeepingReporter reporter(table);
+  KeepingReporter reporter(table, log);
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
   log.append(table);

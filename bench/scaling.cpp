@@ -169,6 +169,7 @@ void measure_first_picture(reports::ResultLog& log, bool full) {
   for (int i = 0; i < (full ? 15 : 7); ++i) {
     times.push_back(1e3 * first_picture_seconds());
   }
+  keep(log, "first_picture", "ms", times);
   const Estimate time = median_with_interval(std::move(times));
   reports::Bar bar;
   bar.name = "First picture of a small scene";

@@ -71,8 +71,13 @@ std::vector<Ray> half_of_each(const std::vector<Ray>& reaching, const std::vecto
   return mixed;
 }
 
-reports::RayCost compare(const Scene& scene, const std::vector<Ray>& rays, int width,
-                         int repetitions) {
+/// What the same rays cost, with the repetitions of rtcOccluded.
+struct MeasuredCost {
+  reports::RayCost cost;
+  std::vector<double> occluded_ns;
+};
+
+MeasuredCost compare(const Scene& scene, const std::vector<Ray>& rays, int width, int repetitions) {
   const RayCalls nearest = RayCalls::pack(rays, Query::nearest, width);
   const RayCalls occluded = RayCalls::pack(rays, Query::occluded, width);
   const auto time = [&](const RayCalls& calls) {
@@ -94,11 +99,11 @@ reports::RayCost compare(const Scene& scene, const std::vector<Ray>& rays, int w
   cost.width = width;
   cost.count = rays.size();
   cost.intersect_ns = median_with_interval(std::move(intersect_ns)).value;
-  cost.occluded_ns = median_with_interval(std::move(occluded_ns)).value;
+  cost.occluded_ns = median_with_interval(occluded_ns).value;
   cost.ratio = ratio.value;
   cost.ratio_low = ratio.low;
   cost.ratio_high = ratio.high;
-  return cost;
+  return {cost, std::move(occluded_ns)};
 }
 
 /// What the rays that a renderer asks say about "a shadow ray costs 40 to 60 % of a full one".
@@ -122,7 +127,12 @@ std::vector<reports::RayCost> measure_scene(const NamedScene& named, reports::Re
                            int width) {
     reports::RayCost cost;
     if (rays.size() < kFewestRays) return cost;
-    cost = compare(scene, rays, width, repetitions);
+    MeasuredCost measured = compare(scene, rays, width, repetitions);
+    if (&rays == &all) {
+      keep(log, fmt::format("shadow_rays/{}/{}-wide", named.name, width), "ns/ray",
+           std::move(measured.occluded_ns));
+    }
+    cost = measured.cost;
     cost.scene = named.title;
     cost.rays = what;
     cost.occluded_fraction = occluded;

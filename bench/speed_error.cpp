@@ -6,12 +6,14 @@
 #include <atomic>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
 #include "clock.h"
+#include "publish.h"
 #include "scenes.h"
 #include "statistics.h"
 
@@ -36,6 +38,7 @@ constexpr std::uint32_t kFewestAllocated = 64;  // samples per pixel that a poli
 struct Curve {
   RenderOptions options;
   std::vector<reports::SpeedPoint> points;
+  std::vector<double> seconds;  ///< of each replicate of the last point
 };
 
 reports::SpeedPoint describe(const std::string& scene, const RenderOptions& options) {
@@ -57,15 +60,17 @@ reports::SpeedPoint describe(const std::string& scene, const RenderOptions& opti
 }
 
 reports::SpeedPoint measure(const std::string& name, const Scene& scene, RenderOptions options,
-                            const std::vector<double>& reference) {
+                            const std::vector<double>& reference, std::vector<double>& seconds) {
   reports::SpeedPoint point = describe(name, options);
+  seconds.clear();
   std::vector<double> errors;
   double rays = 0;
   for (int i = 0; i < kCurveReplicates; ++i) {
     options.seed = static_cast<std::uint64_t>(i) + 1;
     const double start = thread_seconds();
     const renderer::RenderResult result = render(scene, options);
-    point.seconds += (thread_seconds() - start) / kCurveReplicates;
+    seconds.push_back(thread_seconds() - start);
+    point.seconds += seconds.back() / kCurveReplicates;
     errors.push_back(rel_mse(luminances(result.film), reference));
     const renderer::PathCounters& c = result.counters;
     rays += static_cast<double>(c.camera_rays + c.bounce_rays + c.shadow_rays) / kCurveReplicates;
@@ -85,7 +90,7 @@ void measure_curve(const std::string& name, const Scene& scene,
   for (std::uint32_t samples = fewest; samples <= work.most_samples; samples *= 4) {
     options.samples_per_pixel = samples;
     if (options.allocation) options.allocation->iterations = std::max(2u, samples / 50);
-    curve.points.push_back(measure(name, scene, options, reference));
+    curve.points.push_back(measure(name, scene, options, reference, curve.seconds));
   }
 }
 
@@ -104,7 +109,7 @@ std::vector<Curve> curves_of(const renderer::SceneDescription& description) {
       options.path.heuristic = heuristic;
       for (const SamplerType sampler : renderer::kSamplers) {
         options.sampler = sampler;
-        curves.push_back({options, {}});
+        curves.push_back({options, {}, {}});
       }
     }
   }
@@ -112,9 +117,19 @@ std::vector<Curve> curves_of(const renderer::SceneDescription& description) {
   options.sampler = SamplerType::independent;
   for (const renderer::Allocation policy : renderer::kAllocations) {
     options.allocation = {.policy = policy};
-    curves.push_back({options, {}});
+    curves.push_back({options, {}, {}});
   }
   return curves;
+}
+
+/// Rays are counted with fixed seeds: the same every night. Times are kept of the estimators that
+/// are recommended, lest their number hide what happens to them.
+void keep_curve(reports::ResultLog& log, const std::string& scene, Curve& curve) {
+  const reports::SpeedPoint& last = curve.points.back();
+  const std::string name = fmt::format("speed/{}/{}/{}/{}/{} spp", scene, last.strategy,
+                                       last.heuristic, last.sampler, last.samples_per_pixel);
+  log.append(reports::Counter{name + "/rays", "rays of a render, mean", last.rays});
+  if (last.strategy == "mis") keep(log, name, "s", std::move(curve.seconds));
 }
 
 /// One thread per core, each with curves of its own: their times are CPU times.
@@ -133,9 +148,10 @@ void measure_scene(const std::string& name, const CurveWork& work, reports::Resu
   for (std::thread& thread : threads) thread = std::thread(work_off);
   for (std::thread& thread : threads) thread.join();
 
-  for (const Curve& curve : curves) {
+  for (Curve& curve : curves) {
     for (const reports::SpeedPoint& point : curve.points) log.append(point);
     if (curve.points.empty()) continue;
+    keep_curve(log, name, curve);
     const reports::SpeedPoint& last = curve.points.back();
     fmt::print("  {:14} {:10} {:14} {:11} {:4} spp  {:8.4f} s  relMSE {:.3e}  relMSE x s {:.3e}\n",
                name, last.strategy, last.heuristic, last.sampler, last.samples_per_pixel,
