@@ -17,6 +17,7 @@ void add_calibrate_command(options::CommandLine& line);
 void add_compare_command(options::CommandLine& line);
 void add_report_command(options::CommandLine& line);
 void add_verify_command(options::CommandLine& line);
+void add_history_command(options::CommandLine& line);
 void add_init_command(options::CommandLine& line);
 
 }  // namespace plumbline::tools

@@ -25,6 +25,7 @@ constexpr const char* kExamples = R"(Examples:
   plumbline compare furnace.exr --scene furnace_sphere
   plumbline verify --exec './my_bsdf'
   plumbline calibrate
+  plumbline history list --history build/history.db
   plumbline render bench/scenes/cornell.xml -o cornell.exr --seconds 10 --json cornell.json
 
 Exit codes: 0 fine, 1 a check did not give its expected verdict, 2 bad input or usage,
@@ -78,6 +79,7 @@ int main_of(int argc, char** argv) {
   add_verify_command(line);
   add_init_command(line);
   add_report_command(line);
+  add_history_command(line);
   try {
     if (argc > 1) check_command_name(line, argv[1]);
     if (const std::optional<bool> printed = line.parse(argc, argv)) {

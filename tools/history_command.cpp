@@ -1,0 +1,188 @@
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <plumbline/renderer/core/errors.h>
+#include <plumbline/reports/history.h>
+
+#include "command.h"
+#include "history_text.h"
+
+namespace plumbline::tools {
+namespace {
+
+using reports::History;
+
+struct HistoryArguments {
+  std::string action, what, file;
+  std::string table = history_tables().front();
+  bool csv = false;
+  std::string kind = "nightly", sources;
+  std::uint64_t seed = 0;
+  std::vector<std::string> parts;
+};
+
+std::int64_t id_of(const std::string& text) {
+  std::int64_t id = 0;
+  for (const char c : text) {
+    if (c < '0' || c > '9' || id > 1'000'000'000) {
+      throw renderer::InputError(text + ": not the number of a run; `list` shows them");
+    }
+    id = 10 * id + (c - '0');
+  }
+  return id;
+}
+
+/// The run that the command line names, or the latest.
+std::int64_t chosen_run(const History& history, const HistoryArguments& arguments) {
+  if (!arguments.what.empty()) return id_of(arguments.what);
+  const auto runs = history.runs();
+  if (runs.empty()) throw renderer::InputError(arguments.file + ": holds no run yet");
+  return runs.back().id;
+}
+
+/// "mutants=failed,12.5,3 bugs were not seen"
+reports::HistoryPart part_of(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::size_t first = std::min(text.find(',', equals), text.size());
+  const std::size_t second = std::min(text.find(',', first + 1), text.size());
+  reports::HistoryPart part;
+  double seconds = 0;
+  char rest = 0;
+  if (equals != std::string::npos && equals > 0 && first < text.size()) {
+    const auto status = reports::part_status(text.substr(equals + 1, first - equals - 1));
+    const std::string number = text.substr(first + 1, second - first - 1);
+    if (status && std::sscanf(number.c_str(), "%lf%c", &seconds, &rest) == 1 && seconds >= 0) {
+      part.name = text.substr(0, equals);
+      part.status = *status;
+      part.seconds = seconds;
+      if (second < text.size()) part.note = text.substr(second + 1);
+      return part;
+    }
+  }
+  throw renderer::InputError("--part " + text +
+                             ": not NAME=STATUS,SECONDS or NAME=STATUS,SECONDS,NOTE with the "
+                             "status passed, failed, timed out or skipped");
+}
+
+/// Numbers of another build would be kept under the name of this one.
+void require_this_build(const reports::Results& results, const reports::RunEnvironment& here) {
+  for (const reports::RunEnvironment& made : results.environments) {
+    if (made.commit == here.commit &&
+        reports::comparable_key(made) == reports::comparable_key(here)) {
+      continue;
+    }
+    throw renderer::InputError(fmt::format(
+        "the results hold records of another build: commit {}, {}; clear the directory and run "
+        "again",
+        made.commit, reports::comparable_key(made)));
+  }
+}
+
+/// A night of which no part came to a record is a run too.
+reports::Results results_of(const std::string& directory) {
+  if (directory.empty()) throw renderer::InputError("append: which directory of results?");
+  std::error_code ignored;
+  if (std::filesystem::is_directory(directory, ignored) &&
+      std::filesystem::is_empty(directory, ignored)) {
+    return {};
+  }
+  return reports::read_results(directory);
+}
+
+int append_run(const HistoryArguments& arguments) {
+  reports::Results results = results_of(arguments.what);
+  reports::HistoryRun run;
+  run.kind = arguments.kind;
+  run.seed = arguments.seed;
+  run.sources = arguments.sources;
+  run.environment = reports::current_environment();
+  require_this_build(results, run.environment);
+  // Of a part that was ended in the middle of a line: what it had written counts.
+  for (const reports::ReadWarning& warning : results.warnings) {
+    fmt::print(stderr, "plumbline: {}:{}: {}\n", warning.file.string(), warning.line,
+               warning.what);
+  }
+  for (const std::string& part : arguments.parts) run.parts.push_back(part_of(part));
+  run.seed_runs = std::move(results.seed_runs);
+  History history(arguments.file, History::Access::append);
+  const std::int64_t id = history.append(
+      run,
+      {std::move(results.checks), std::move(results.distributions), std::move(results.counters)});
+  fmt::print("{}: run {}\n", arguments.file, id);
+  return kExitFine;
+}
+
+int run_history(const HistoryArguments& arguments) {
+  try {
+    if (arguments.action == "append") return append_run(arguments);
+    const History history(arguments.file, History::Access::read);
+    if (arguments.action == "list") {
+      fmt::print("{}", history_list(history));
+    } else if (arguments.action == "show") {
+      fmt::print("{}", history_show(history, chosen_run(history, arguments)));
+    } else if (arguments.action == "summary") {
+      fmt::print("{}", history_summary(history, chosen_run(history, arguments)));
+    } else if (!arguments.csv) {
+      throw renderer::InputError("export: in which form? --csv");
+    } else {
+      fmt::print("{}", history_csv(history, arguments.table));
+    }
+    return kExitFine;
+  } catch (const reports::HistoryError& error) {
+    throw renderer::InputError(error.what());
+  } catch (const reports::ResultsError& error) {
+    throw renderer::InputError(error.what());
+  }
+}
+
+}  // namespace
+
+void add_history_command(options::CommandLine& line) {
+  const auto arguments = std::make_shared<HistoryArguments>();
+  options::Command command =
+      line.add_command("history", "The runs of nights and of CI, kept in one file");
+  command
+      .add("action", arguments->action,
+           "list: all runs; show: one; summary: one, in Markdown; export: a table of all runs; "
+           "append: add what a results directory holds")
+      .one_of({"list", "show", "summary", "export", "append"})
+      .required()
+      .type("");
+  command
+      .add("what", arguments->what,
+           "show, summary: number of a run, the latest without it; append: the directory")
+      .type("");
+  command.add("--history", arguments->file, "The SQLite file").required().type("FILE");
+  command.add_flag("--csv", arguments->csv, "export: comma-separated values");
+  command.add("--table", arguments->table, "export: which values")
+      .one_of(history_tables())
+      .shows_default();
+  command.add("--kind", arguments->kind, "append: what ran")
+      .one_of({"nightly", "test"})
+      .shows_default();
+  command.add("--seed", arguments->seed, "append: of the checks").type("N");
+  command.add("--sources", arguments->sources, "append: hash of the code under test").type("HASH");
+  command
+      .add("--part", arguments->parts,
+           "append: a part that ran or was skipped, NAME=STATUS,SECONDS[,NOTE]; repeated")
+      .one_value_each()
+      .type("TEXT");
+  command.footer(
+      "Examples:\n  plumbline history list --history build/history.db\n"
+      "  plumbline history export --csv --table checks --history build/history.db");
+  command.runs([arguments] { return run_history(*arguments); });
+}
+
+}  // namespace plumbline::tools
