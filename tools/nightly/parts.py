@@ -1,0 +1,47 @@
+"""What a night is made of, the most valuable first. The table in docs/nights.md says the same (tests/nightly)."""
+
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class Effort:
+    """One way to do a part: what it takes and how it is done. `minutes` are of two cores of a server."""
+
+    what: str
+    minutes: float
+    command: tuple
+
+
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """`efforts` grow; a night takes the least of each part first, and more where there is time."""
+
+    name: str
+    shows: str
+    efforts: tuple
+
+
+def parts(directory):
+    """Of the release build; `directory` takes JUnit's files, in a subdirectory. In braces: what a night fills in."""
+    build = "build/release"
+
+    def gate(runs):
+        return Effort(f"{runs} run{'s' * (runs > 1)}", 12 * runs,
+                      ("env", f"PLUMBLINE_JUNIT={{here}}/{directory}/junit", "./run", "seeds", str(runs), "--gate"))
+
+    suites = ("env", "PLUMBLINE_SEED={seed}", f"PLUMBLINE_RESULTS={{here}}/{build}/results/checks", "ctest", "--preset", "release", "-C", "nightly", "-L", "nightly", "-E", "^nightly.calibration_test$",
+              "-j", "{cores}", "--output-junit", f"{directory}/junit/suites.xml")
+    bench = (f"{build}/bench/plumbline_bench", "--results", f"{build}/results/bench")
+    calibrate = (f"{build}/plumbline", "calibrate", "--seed", "{seed}", "--results", f"{build}/results/calibration")
+    return (
+        Part("gate", "the gate with seeds that nobody chose", tuple(gate(n) for n in (1, 2, 4, 8))),
+        Part("suites", "full grids and tighter tolerances, with one fresh seed", (Effort("all", 20, suites),)),
+        Part("benchmarks", "times, repeated; rays", (
+            Effort("the one-minute set", 3, bench), Effort("full", 60, (*bench, "--full")))),
+        Part("calibration", "levels, power and coverage of the checks", (
+            Effort("as in the gate", 5, calibrate), Effort("full", 60, (*calibrate, "--full")))),
+        Part("mutants", "known bugs, each of which the gate must see", (
+            Effort("named", 75, ("tests/mutants/run_mutants.py",)),
+            Effort("named and 200 mechanical", 240,
+                   ("tests/mutants/run_mutants.py", "--renderer", "140", "--verify", "60")))),
+    )
