@@ -111,8 +111,7 @@ int append_run(const HistoryArguments& arguments) {
   require_this_build(results, run.environment);
   // Of a part that was ended in the middle of a line: what it had written counts.
   for (const reports::ReadWarning& warning : results.warnings) {
-    fmt::print(stderr, "plumbline: {}:{}: {}\n", warning.file.string(), warning.line,
-               warning.what);
+    fmt::print(stderr, "plumbline: {}:{}: {}\n", warning.file.string(), warning.line, warning.what);
   }
   for (const std::string& part : arguments.parts) run.parts.push_back(part_of(part));
   run.seed_runs = std::move(results.seed_runs);

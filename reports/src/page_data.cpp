@@ -3,9 +3,11 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 #include <plumbline/reports/power_fit.h>
 
+#include "history_fields.h"
 #include "record_fields.h"
 
 namespace plumbline::reports::detail {
@@ -155,6 +157,16 @@ Json list_with_exact_seeds(const std::vector<Record>& records) {
   return list;
 }
 
+Json histories_to_json(const std::vector<HistoryRecord>& histories) {
+  Json list = Json::array();
+  for (const HistoryRecord& history : histories) {
+    Json json = record_to_json(history);
+    json["failing_gate_runs"] = list_with_exact_seeds(history.failing_gate_runs);
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 Json answers_to_json(const std::map<std::string, std::string>& answers) {
   Json json = Json::object();
   for (const auto& [scene, answer] : answers) json[scene] = answer;
@@ -179,6 +191,7 @@ std::string page_data(const PageInput& input) {
                                   {"bars", bars_to_json(results.bars)},
                                   {"causes", list_with_exact_seeds(results.causes)},
                                   {"stability", list_to_json(results.stability)},
+                                  {"history", histories_to_json(results.histories)},
                                   {"figures", list_to_json(results.figures)},
                                   {"tables", list_to_json(results.tables)}});
   return data.dump();

@@ -4,6 +4,7 @@
 #include <plumbline/reports/results.h>
 
 #include "files.h"
+#include "history_fields.h"
 #include "record_fields.h"
 
 namespace plumbline::reports {
@@ -64,6 +65,8 @@ void add_document(Results& results, const std::string& text, const fs::path& dir
     results.counters.push_back(parse_counter(text));
   } else if (format == detail::kSeedRunFormat) {
     results.seed_runs.push_back(parse_seed_run(text));
+  } else if (format == detail::kHistoryFormat) {
+    results.histories.push_back(parse_history(text));
   } else if (format == detail::kEnvironmentFormat) {
     add_environment(results.environments, parse_environment(text));
   } else if (format.empty()) {
@@ -104,7 +107,7 @@ bool holds_nothing(const Results& results) {
          results.ray_costs.empty() && results.bars.empty() && results.stability.empty() &&
          results.causes.empty() && results.figures.empty() && results.tables.empty() &&
          results.distributions.empty() && results.counters.empty() && results.seed_runs.empty() &&
-         results.warnings.empty();
+         results.histories.empty() && results.warnings.empty();
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ TEST(Formats, EveryRecordSurvivesTheRoundTrip) {
   EXPECT_EQ(parse_distribution(to_json(sample_distribution())), sample_distribution());
   EXPECT_EQ(parse_counter(to_json(sample_counter())), sample_counter());
   EXPECT_EQ(parse_seed_run(to_json(sample_seed_run())), sample_seed_run());
+  EXPECT_EQ(parse_history(to_json(sample_history())), sample_history());
 }
 
 TEST(Formats, CheckIsReadBackFieldByField) {
@@ -259,6 +260,31 @@ TEST(Formats, CausesOfWhichATwinLacksSomethingAreRefused) {
   reports::CausesRecord record = sample_causes_record();
   record.twins[0].expected.clear();
   EXPECT_THROW(reports::to_json(record), FormatError);
+}
+
+TEST(Formats, MeasuredWithoutANameOrValuesIsRefused) {
+  reports::Distribution distribution = sample_distribution();
+  distribution.values.clear();
+  EXPECT_THROW(to_json(distribution), FormatError);
+  EXPECT_THROW(to_json(reports::Distribution{"", "ns", true, {1}}), FormatError);
+  EXPECT_THROW(to_json(reports::Counter{"", "rays", 1}), FormatError);
+}
+
+TEST(Formats, HistoryThatDoesNotFitItsAxisIsRefused) {
+  const auto refused = [](const auto& spoil) {
+    reports::HistoryRecord record = sample_history();
+    spoil(record);
+    EXPECT_THROW(to_json(record), FormatError);
+  };
+  using Record = reports::HistoryRecord;
+  refused([](Record& r) { r.numbers[0].median.push_back(1); });
+  refused([](Record& r) { r.numbers[0].low.pop_back(); });
+  refused([](Record& r) { r.numbers[0].high.clear(); });
+  refused([](Record& r) { r.numbers[0].changes[0].last_night = 2; });
+  refused([](Record& r) { r.numbers[0].changes[0].first_night = 2; });
+  refused([](Record& r) { r.numbers[0].odd_nights = {2}; });
+  refused([](Record& r) { r.sequences[0].bound.push_back(1); });
+  refused([](Record& r) { r.sequences[0].evidence.clear(); });
 }
 
 TEST(Formats, EnvironmentOfThisBuildIsFilledIn) {

@@ -40,6 +40,7 @@ PageInput sample_input() {
   input.results.causes = {sample_causes_record()};
   input.results.figures = {sample_figure()};
   input.results.tables = {sample_table()};
+  input.results.histories = {sample_history()};
   input.images = {{"furnace_sphere", "mis, power", 1, 1, {0.5f, 0.25f, 0.125f}}};
   input.answers = {{"furnace_sphere", "L = Le / (1 - albedo)"}};
   return input;
@@ -134,6 +135,8 @@ TEST(Page, HoldsEveryRecordOfTheResults) {
   EXPECT_EQ(data["causes"][0]["twins"][1]["named"], "shifted");
   EXPECT_EQ(data["figures"][0]["title"], "Error against samples");
   EXPECT_EQ(data["tables"][0]["rows"][1][1], "1.25");
+  EXPECT_EQ(data["history"][0]["numbers"][0]["median"][1], 2);
+  EXPECT_EQ(data["history"][0]["failing_gate_runs"][0]["seed"], "18446744073709551614");
   EXPECT_EQ(data["images"][0]["group"], "furnace_sphere");
   EXPECT_EQ(data["answers"]["furnace_sphere"], "L = Le / (1 - albedo)");
 }

@@ -42,7 +42,11 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
     bench.append(sample_causes_record());
     bench.append(sample_figure());
     bench.append(sample_table());
+    bench.append(sample_distribution());
+    bench.append(sample_counter());
   }
+  scratch.write("seeds.jsonl", to_json(sample_seed_run()) + "\n");
+  scratch.write("history.json", to_json(sample_history()));
   fs::create_directories(scratch / "images");
   reports::RenderRecord render = sample_render();
   render.image = scratch / "images" / "a.exr";
@@ -57,6 +61,10 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
   EXPECT_EQ(results.causes.size(), 1u);
   EXPECT_EQ(results.figures.size(), 1u);
   EXPECT_EQ(results.tables.size(), 1u);
+  EXPECT_EQ(results.distributions.size(), 1u);
+  EXPECT_EQ(results.counters.size(), 1u);
+  EXPECT_EQ(results.seed_runs.size(), 1u);
+  EXPECT_EQ(results.histories.size(), 1u);
   ASSERT_EQ(results.renders.size(), 1u);
   EXPECT_EQ(fs::weakly_canonical(results.renders[0].image), fs::weakly_canonical(render.image));
   EXPECT_EQ(results.environments.size(), 1u) << "both logs were made by this build";

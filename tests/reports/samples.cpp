@@ -1,5 +1,7 @@
 #include "samples.h"
 
+#include <limits>
+
 namespace plumbline::tests {
 
 verify::CheckResult sample_check() {
@@ -175,6 +177,42 @@ reports::Counter sample_counter() { return {"rays", "rays of a path", 12'345'678
 
 reports::SeedRun sample_seed_run() {
   return {18'446'744'073'709'551'614u, "0123abcd-dirty", "2024-03-02T12:00:00Z", 2500, {"A.B"}};
+}
+
+reports::HistoryRecord sample_history() {
+  constexpr double kMissing =
+      std::numeric_limits<double>::infinity();  // NaN is not equal to itself
+  reports::HistoryRecord record;
+  record.machine = "a processor x 2, g++, -O3";
+  record.kind = "nightly";
+  record.nights = {{1, "2024-03-01T12:00:00Z", "abc", true, "01", 10, 2, 3, 4, 5, 6},
+                   {7, "2024-03-02T12:00:00Z", "def", false, "02", 11, 12, 13, 14, 15, 16}};
+  reports::HistoryChange change;
+  change.drift = change.regression = true;
+  change.first_night = 0;
+  change.last_night = 1;
+  change.commit_before = "a";
+  change.commit_first = "b";
+  change.commit_last = "c";
+  change.before = 1.5;
+  change.after = 2.5;
+  change.relative = 0.625;
+  change.low = 0.5;
+  change.high = 0.75;
+  change.means_p_value = 0.001;
+  change.distribution_p_value = 0.002;
+  record.numbers = {
+      {"cost", "ns", true, false, {1, 2}, {0.5, kMissing}, {1.5, 2.5}, {change}, {1}}};
+  record.sequences = {{verify::CheckKind::chi_square,
+                       "a/b",
+                       verify::Verdict::fail,
+                       2,
+                       0.25,
+                       {0.125, kMissing},
+                       {-1, 3},
+                       "refuted"}};
+  record.failing_gate_runs = {sample_seed_run()};
+  return record;
 }
 
 }  // namespace plumbline::tests

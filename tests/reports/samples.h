@@ -19,5 +19,6 @@ reports::Table sample_table();
 reports::Distribution sample_distribution();
 reports::Counter sample_counter();
 reports::SeedRun sample_seed_run();
+reports::HistoryRecord sample_history();
 
 }  // namespace plumbline::tests

@@ -11,6 +11,7 @@
 #include <plumbline/reports/environment.h>
 #include <plumbline/reports/errors.h>
 #include <plumbline/reports/figure.h>
+#include <plumbline/reports/history_record.h>
 #include <plumbline/reports/measured.h>
 #include <plumbline/reports/render_record.h>
 #include <plumbline/reports/stability_record.h>
@@ -86,6 +87,7 @@ struct Results {
   std::vector<Distribution> distributions;
   std::vector<Counter> counters;
   std::vector<SeedRun> seed_runs;
+  std::vector<HistoryRecord> histories;
   std::vector<RunEnvironment> environments;  ///< one per build and machine, the latest of each
   std::vector<ReadWarning> warnings;
 };
