@@ -15,9 +15,11 @@
 
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/reports/history.h>
+#include <plumbline/reports/history_report.h>
 
 #include "command.h"
 #include "history_text.h"
+#include "output_file.h"
 
 namespace plumbline::tools {
 namespace {
@@ -31,6 +33,7 @@ struct HistoryArguments {
   std::string kind = "nightly", sources;
   std::uint64_t seed = 0;
   std::vector<std::string> parts;
+  std::string machine, json;
 };
 
 std::int64_t id_of(const std::string& text) {
@@ -93,12 +96,13 @@ void require_this_build(const reports::Results& results, const reports::RunEnvir
 /// A night of which no part came to a record is a run too.
 reports::Results results_of(const std::string& directory) {
   if (directory.empty()) throw renderer::InputError("append: which directory of results?");
-  std::error_code ignored;
-  if (std::filesystem::is_directory(directory, ignored) &&
-      std::filesystem::is_empty(directory, ignored)) {
-    return {};
+  try {
+    return reports::read_results(directory);
+  } catch (const reports::ResultsError&) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(directory, ignored)) return {};
+    throw;
   }
-  return reports::read_results(directory);
 }
 
 int append_run(const HistoryArguments& arguments) {
@@ -123,10 +127,41 @@ int append_run(const HistoryArguments& arguments) {
   return kExitFine;
 }
 
+/// The machine that the command line names, or that of the latest run of the kind.
+std::string chosen_machine(const History& history, const HistoryArguments& arguments) {
+  const auto runs = history.runs({.kind = arguments.kind, .comparable = {}});
+  if (runs.empty()) {
+    throw renderer::InputError(
+        fmt::format("{}: holds no run of the kind \"{}\" yet", arguments.file, arguments.kind));
+  }
+  if (arguments.machine.empty()) return reports::comparable_key(runs.back().environment);
+  for (const reports::HistoryRun& run : runs) {
+    if (reports::comparable_key(run.environment) == arguments.machine) return arguments.machine;
+  }
+  throw renderer::InputError(
+      fmt::format("--machine {}: none of the runs; export shows theirs", arguments.machine));
+}
+
+int report_runs(const History& history, const HistoryArguments& arguments) {
+  const reports::HistoryRecord record =
+      reports::judge_runs(history, chosen_machine(history, arguments), arguments.kind);
+  fmt::print("{}", history_changes(record));
+  if (!arguments.json.empty()) {
+    const OutputFile file(arguments.json);
+    reports::write_history(file.path(), record);
+    file.finish();
+  }
+  const bool refuted = std::any_of(
+      record.sequences.begin(), record.sequences.end(),
+      [](const reports::TrackedSequence& s) { return s.verdict == verify::Verdict::fail; });
+  return refuted ? kExitUnexpectedVerdict : kExitFine;
+}
+
 int run_history(const HistoryArguments& arguments) {
   try {
     if (arguments.action == "append") return append_run(arguments);
     const History history(arguments.file, History::Access::read);
+    if (arguments.action == "report") return report_runs(history, arguments);
     if (arguments.action == "list") {
       fmt::print("{}", history_list(history));
     } else if (arguments.action == "show") {
@@ -153,10 +188,11 @@ void add_history_command(options::CommandLine& line) {
   options::Command command =
       line.add_command("history", "The runs of nights and of CI, kept in one file");
   command
-      .add("action", arguments->action,
-           "list: all runs; show: one; summary: one, in Markdown; export: a table of all runs; "
-           "append: add what a results directory holds")
-      .one_of({"list", "show", "summary", "export", "append"})
+      .add(
+          "action", arguments->action,
+          "list: all runs; show: one; summary: one, in Markdown; export: a table of all runs; "
+          "report: what all show together, in Markdown; append: add what a results directory holds")
+      .one_of({"list", "show", "summary", "export", "report", "append"})
       .required()
       .type("");
   command
@@ -168,7 +204,7 @@ void add_history_command(options::CommandLine& line) {
   command.add("--table", arguments->table, "export: which values")
       .one_of(history_tables())
       .shows_default();
-  command.add("--kind", arguments->kind, "append: what ran")
+  command.add("--kind", arguments->kind, "append: what ran; report: which runs")
       .one_of({"nightly", "test"})
       .shows_default();
   command.add("--seed", arguments->seed, "append: of the checks").type("N");
@@ -178,6 +214,11 @@ void add_history_command(options::CommandLine& line) {
            "append: a part that ran or was skipped, NAME=STATUS,SECONDS[,NOTE]; repeated")
       .one_value_each()
       .type("TEXT");
+  command
+      .add("--machine", arguments->machine,
+           "report: whose runs, as export shows it; those like the latest without it")
+      .type("TEXT");
+  command.add("--json", arguments->json, "report: a record for the page too").type("FILE");
   command.footer(
       "Examples:\n  plumbline history list --history build/history.db\n"
       "  plumbline history export --csv --table checks --history build/history.db");

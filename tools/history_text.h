@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <plumbline/reports/history.h>
+#include <plumbline/reports/history_record.h>
 
 /// What `plumbline history` prints.
 namespace plumbline::tools {
@@ -19,6 +20,10 @@ std::string history_show(const reports::History& history, std::int64_t id);
 /// What became of one run, in Markdown for the page of a job: parts, checks that did not give their
 /// expected verdict, runs of the gate with fresh seeds.
 std::string history_summary(const reports::History& history, std::int64_t id);
+
+/// What all runs show together, in Markdown: changes of numbers, what the sequences of the checks
+/// have refuted or proven, failures of the gate with fresh seeds.
+std::string history_changes(const reports::HistoryRecord& record);
 
 /// The tables that history_csv knows.
 std::vector<std::string> history_tables();

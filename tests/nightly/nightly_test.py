@@ -120,6 +120,19 @@ class Night(unittest.TestCase):
         page = (self.root / "page.md").read_text()
         self.assertIn("| hangs | **timed out** |", page)
         self.assertIn("- seed 5: A.B", page)
+        self.assertIn("## Over 1 nightly runs", page)
+        record = json.loads((self.root / "build/release/results/history.json").read_text())
+        self.assertEqual(record["nights"][0]["failed_parts"], 3)
+
+    def test_a_night_of_which_nothing_fits_is_no_success(self):
+        with tempfile.TemporaryDirectory() as folder, open(os.devnull, "w") as nothing, \
+                unittest.mock.patch("sys.stderr", nothing):
+            root = pathlib.Path(folder)
+            (root / "build/release").mkdir(parents=True)
+            (root / "build/release/plumbline").symlink_to(os.environ["PLUMBLINE"])
+            words = ["--hours", "0.1", "--history", "h.db"]
+            self.assertEqual(nightly.main(words, lambda _: (shell("long", "true", 60),), root), 1)
+            self.assertEqual(nightly.main(words, lambda _: (shell("short", "true"),), root), 0)
 
 
 class Plan(unittest.TestCase):

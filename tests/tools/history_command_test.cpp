@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <plumbline_tests/support.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,29 @@ TEST(HistoryCommand, ExportsTablesOfAllRunsAsCsv) {
   expect_in_order(csv("gate-runs"), {"17,2500,1,A.B\r\n", "18,2500,0,\r\n"});
 }
 
+TEST(HistoryCommand, ReportsOverTheRunsInMarkdownAndAsARecord) {
+  const ScratchDirectory scratch;
+  write_results(scratch);
+  for (int i = 0; i < 2; ++i) ASSERT_EQ(run_plumbline(scratch.path(), kAppend).exit_code, 0);
+  const Outcome outcome =
+      run_plumbline(scratch.path(), "history report --history h.db --json results/history.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_in_order(outcome.out,
+                  {"## Over 2 nightly runs\n", "2 numbers are followed; none has changed.",
+                   "2 of 4 runs of the gate with fresh seeds failed.\n", "- seed 17, abc: A.B\n"});
+  const reports::Results results = reports::read_results(scratch / "results");
+  ASSERT_EQ(results.histories.size(), 1u);
+  EXPECT_EQ(results.histories[0].nights.size(), 2u);
+  EXPECT_EQ(results.histories[0].numbers.size(), 2u);
+}
+
+TEST(HistoryCommand, KeepsANightThatMeasuredNothing) {
+  const ScratchDirectory scratch;
+  std::filesystem::create_directories(scratch / "results/checks");
+  EXPECT_EQ(run_plumbline(scratch.path(), kAppend).exit_code, 0);
+  EXPECT_EQ(reports::History(scratch / "h.db", reports::History::Access::read).runs().size(), 1u);
+}
+
 TEST(HistoryCommand, RefusesResultsOfAnotherBuild) {
   const ScratchDirectory scratch;
   write_results(scratch);
@@ -134,6 +158,8 @@ TEST(HistoryCommand, SaysWhatIsWrong) {
            {"append results --history h.db --part mutants", "--part mutants: not NAME=STATUS"},
            {"append results --history h.db --part mutants=good,1", "not NAME=STATUS"},
            {"append results --history h.db --part mutants=passed,long", "not NAME=STATUS"},
+           {"report --history h.db --kind test", "holds no run of the kind \"test\""},
+           {"report --history h.db --machine mine", "--machine mine: none of the runs"},
            {"frob --history h.db", "frob"}}) {
     const Outcome outcome = run_plumbline(scratch.path(), std::string("history ") + c.arguments);
     EXPECT_EQ(outcome.exit_code, 2) << c.arguments;
