@@ -95,8 +95,8 @@ std::string seeds_text(const HistoryRecord& record) {
 std::string history_changes(const HistoryRecord& record) {
   const std::string worse = changes_text(record, true), better = changes_text(record, false);
   std::string text =
-      fmt::format("## Over {} {} runs\n\n{}\n\n{} numbers are followed; {}.\n",
-                  record.nights.size(), record.kind, record.machine, record.numbers.size(),
+      fmt::format("## Over all {} runs, {} by now\n\n{}\n\n{} numbers are followed; {}.\n",
+                  record.kind, record.nights.size(), record.machine, record.numbers.size(),
                   worse.empty() && better.empty() ? "none has changed" : "these have changed");
   text += section("Worse", worse) + section("Better", better);
   text += bounds_text(record) + section("Refuted over the nights", refuted_text(record));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,7 +30,7 @@ using reports::History;
 struct HistoryArguments {
   std::string action, what, file;
   std::string table = history_tables().front();
-  bool csv = false;
+  bool csv = false, whole = false;
   std::string kind = "nightly", sources;
   std::uint64_t seed = 0;
   std::vector<std::string> parts;
@@ -105,6 +106,18 @@ reports::Results results_of(const std::string& directory) {
   }
 }
 
+/// How many samples the checks of each kind took to decide. With the gate's own seed, and no test
+/// left out, they are the same at every run of the same code.
+void count_samples(reports::Results& results) {
+  std::map<std::string, std::uint64_t> samples;
+  for (const verify::CheckResult& check : results.checks) {
+    samples[std::string(verify::to_string(check.kind))] += check.samples;
+  }
+  for (const auto& [kind, count] : samples) {
+    results.counters.push_back({fmt::format("gate/{}/samples", kind), "samples", count});
+  }
+}
+
 int append_run(const HistoryArguments& arguments) {
   reports::Results results = results_of(arguments.what);
   reports::HistoryRun run;
@@ -119,6 +132,7 @@ int append_run(const HistoryArguments& arguments) {
   }
   for (const std::string& part : arguments.parts) run.parts.push_back(part_of(part));
   run.seed_runs = std::move(results.seed_runs);
+  if (arguments.whole && arguments.seed == 0) count_samples(results);
   History history(arguments.file, History::Access::append);
   const std::int64_t id = history.append(
       run,
@@ -207,7 +221,9 @@ void add_history_command(options::CommandLine& line) {
   command.add("--kind", arguments->kind, "append: what ran; report: which runs")
       .one_of({"nightly", "test"})
       .shows_default();
-  command.add("--seed", arguments->seed, "append: of the checks").type("N");
+  command.add("--seed", arguments->seed, "append: of the checks; 0: the gate's own").type("N");
+  command.add_flag("--whole", arguments->whole,
+                   "append: the whole gate ran; without --seed its samples are counted");
   command.add("--sources", arguments->sources, "append: hash of the code under test").type("HASH");
   command
       .add("--part", arguments->parts,

@@ -120,7 +120,7 @@ class Night(unittest.TestCase):
         page = (self.root / "page.md").read_text()
         self.assertIn("| hangs | **timed out** |", page)
         self.assertIn("- seed 5: A.B", page)
-        self.assertIn("## Over 1 nightly runs", page)
+        self.assertIn("## Over all nightly runs, 1 by now", page)
         record = json.loads((self.root / "build/release/results/history.json").read_text())
         self.assertEqual(record["nights"][0]["failed_parts"], 3)
 

@@ -109,13 +109,33 @@ TEST(HistoryCommand, ReportsOverTheRunsInMarkdownAndAsARecord) {
   const Outcome outcome =
       run_plumbline(scratch.path(), "history report --history h.db --json results/history.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  expect_in_order(outcome.out,
-                  {"## Over 2 nightly runs\n", "2 numbers are followed; none has changed.",
-                   "2 of 4 runs of the gate with fresh seeds failed.\n", "- seed 17, abc: A.B\n"});
+  expect_in_order(
+      outcome.out,
+      {"## Over all nightly runs, 2 by now\n", "2 numbers are followed; none has changed.",
+       "2 of 4 runs of the gate with fresh seeds failed.\n", "- seed 17, abc: A.B\n"});
   const reports::Results results = reports::read_results(scratch / "results");
   ASSERT_EQ(results.histories.size(), 1u);
   EXPECT_EQ(results.histories[0].nights.size(), 2u);
   EXPECT_EQ(results.histories[0].numbers.size(), 2u);
+}
+
+// With the gate's seed the samples that checks take to decide are the same at every run.
+TEST(HistoryCommand, CountsTheSamplesOfAWholeGate) {
+  const ScratchDirectory scratch;
+  write_results(scratch);
+  const auto counters_with = [&](const char* options) {
+    EXPECT_EQ(run_plumbline(scratch.path(),
+                            std::string("history append results --history h.db ") + options)
+                  .exit_code,
+              0);
+    const reports::History history(scratch / "h.db", reports::History::Access::read);
+    return history.counters(history.runs().back().id);
+  };
+  const auto whole = counters_with("--kind test --whole");
+  ASSERT_EQ(whole.size(), 2u);
+  EXPECT_EQ(whole[1], (reports::Counter{"gate/mean/samples", "samples", 2000}));
+  EXPECT_EQ(counters_with("--kind test").size(), 1u);
+  EXPECT_EQ(counters_with("--kind test --whole --seed 3").size(), 1u);
 }
 
 TEST(HistoryCommand, KeepsANightThatMeasuredNothing) {

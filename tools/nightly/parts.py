@@ -37,11 +37,11 @@ def parts(directory):
         Part("gate", "the gate with seeds that nobody chose", tuple(gate(n) for n in (1, 2, 4, 8))),
         Part("suites", "full grids and tighter tolerances, with one fresh seed", (Effort("all", 20, suites),)),
         Part("benchmarks", "times, repeated; rays", (
-            Effort("the one-minute set", 3, bench), Effort("full", 60, (*bench, "--full")))),
+            Effort("the one-minute set", 3, bench), Effort("full", 30, (*bench, "--full")))),
         Part("calibration", "levels, power and coverage of the checks", (
-            Effort("as in the gate", 5, calibrate), Effort("full", 60, (*calibrate, "--full")))),
+            Effort("as in the gate", 2, calibrate), Effort("full", 60, (*calibrate, "--full")))),
         Part("mutants", "known bugs, each of which the gate must see", (
-            Effort("named", 75, ("tests/mutants/run_mutants.py",)),
+            Effort("named", 60, ("tests/mutants/run_mutants.py",)),
             Effort("named and 200 mechanical", 240,
                    ("tests/mutants/run_mutants.py", "--renderer", "140", "--verify", "60")))),
     )
