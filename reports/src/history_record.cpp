@@ -18,7 +18,10 @@ void require_on_axis(const HistoryRecord& record) {
     if (!fits) throw FormatError("number \"" + number.name + "\" does not fit the axis of nights");
   }
   for (const TrackedSequence& sequence : record.sequences) {
-    if (sequence.bound.size() == nights && sequence.evidence.size() == nights) continue;
+    const auto fits = [&](const std::vector<double>& list) {
+      return list.empty() || list.size() == nights;
+    };
+    if (fits(sequence.bound) && fits(sequence.evidence)) continue;
     throw FormatError("sequence \"" + sequence.subject + "\" is not as long as the axis of nights");
   }
 }

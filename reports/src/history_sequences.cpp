@@ -29,6 +29,13 @@ struct Followed {
   over_nights::TestSequence test;
 };
 
+/// Thousands of sequences stand on a page, each with a number for every night.
+double four_digits(double value) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  const double unit = std::pow(10.0, 3 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * unit) / unit;
+}
+
 bool goes_on(const verify::CheckResult& check) {
   return check.expected == verify::Verdict::pass && check.waived.empty();
 }
@@ -69,7 +76,7 @@ void add_mean(Followed& followed, const HistoryRun& run, const verify::CheckResu
   const verify::CheckResult judged = over_nights::judge_sequence(sequence, options);
   take_verdict(followed, judged, sequence.nights);
   followed.record.tolerance = check.tolerance;
-  followed.record.bound[night] = judged.bound.value_or(kMissing);
+  followed.record.bound[night] = four_digits(judged.bound.value_or(kMissing));
 }
 
 void add_test(Followed& followed, const HistoryRun& run, const verify::CheckResult& check,
@@ -78,7 +85,7 @@ void add_test(Followed& followed, const HistoryRun& run, const verify::CheckResu
   followed.test.add_night(run.sources, *check.p_value);
   take_verdict(followed, over_nights::judge_sequence(followed.test, check.subject),
                followed.test.nights);
-  followed.record.evidence[night] = followed.test.log_evidence();
+  followed.record.evidence[night] = four_digits(followed.test.log_evidence());
 }
 
 }  // namespace
@@ -121,12 +128,9 @@ std::vector<TrackedSequence> follow_checks(const History& history,
       const bool mean = check.kind == verify::CheckKind::mean;
       if (!goes_on(check) || (!mean && check.kind != verify::CheckKind::chi_square)) continue;
       Followed& followed = all[{check.kind, check.subject}];
-      if (followed.record.bound.empty()) {
-        followed.record.check = check.kind;
-        followed.record.subject = check.subject;
-        followed.record.bound.resize(runs.size(), kMissing);
-        followed.record.evidence.resize(runs.size(), kMissing);
-      }
+      followed.record.check = check.kind;
+      followed.record.subject = check.subject;
+      (mean ? followed.record.bound : followed.record.evidence).resize(runs.size(), kMissing);
       mean ? add_mean(followed, run, check, night) : add_test(followed, run, check, night);
     }
   }

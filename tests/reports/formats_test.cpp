@@ -284,7 +284,7 @@ TEST(Formats, HistoryThatDoesNotFitItsAxisIsRefused) {
   refused([](Record& r) { r.numbers[0].changes[0].first_night = 2; });
   refused([](Record& r) { r.numbers[0].odd_nights = {2}; });
   refused([](Record& r) { r.sequences[0].bound.push_back(1); });
-  refused([](Record& r) { r.sequences[0].evidence.clear(); });
+  refused([](Record& r) { r.sequences[0].evidence.pop_back(); });
 }
 
 TEST(Formats, EnvironmentOfThisBuildIsFilledIn) {

@@ -131,6 +131,7 @@ TEST_F(ReportOfSixtyNights, FindsTheBiasThatNoNightShows) {
 TEST_F(ReportOfSixtyNights, ProvesSmallerBoundsNightByNight) {
   const std::vector<double>& bound = sequence("right").bound;
   ASSERT_EQ(bound.size(), kNights + 1);
+  EXPECT_TRUE(sequence("right").evidence.empty());
   EXPECT_LT(bound[29], bound[4] / 1.5);  // like 1/sqrt(nights), by which it would be 2.4
   EXPECT_LT(bound[kNights - 1], bound[9] / 1.5);
   EXPECT_TRUE(std::isnan(bound[kNights])) << "the same seed again adds nothing";
@@ -140,6 +141,7 @@ TEST_F(ReportOfSixtyNights, ProvesSmallerBoundsNightByNight) {
 TEST_F(ReportOfSixtyNights, AddsUpTheEvidenceOfTests) {
   EXPECT_EQ(sequence("chi/wrong").verdict, Verdict::fail);
   EXPECT_NE(sequence("chi/right").verdict, Verdict::fail);
+  EXPECT_TRUE(sequence("chi/right").bound.empty());
   EXPECT_GT(sequence("chi/wrong").evidence[kNights - 1], 27);  // −ln 1e-12
 }
 

@@ -54,8 +54,8 @@ struct TrackedNumber {
   bool operator==(const TrackedNumber&) const = default;
 };
 
-/// A check over the nights. `bound` and `evidence` are as long as the axis; NaN where a night adds
-/// nothing.
+/// A check over the nights. Of `bound` and `evidence` one is as long as the axis, with NaN where a
+/// night adds nothing, to four digits; the other is empty.
 struct TrackedSequence {
   verify::CheckKind check = verify::CheckKind::mean;
   std::string subject;
