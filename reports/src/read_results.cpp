@@ -55,6 +55,8 @@ void add_document(Results& results, const std::string& text, const fs::path& dir
     results.stability.push_back(parse_stability_record(text));
   } else if (format == detail::kCausesFormat) {
     results.causes.push_back(parse_causes_record(text));
+  } else if (format == detail::kDuetFormat) {
+    results.duets.push_back(parse_duet_record(text));
   } else if (format == detail::kFigureFormat) {
     results.figures.push_back(parse_figure(text));
   } else if (format == detail::kTableFormat) {
@@ -105,9 +107,9 @@ void read_single(Results& results, const fs::path& file, const std::string& text
 bool holds_nothing(const Results& results) {
   return results.checks.empty() && results.renders.empty() && results.speed.empty() &&
          results.ray_costs.empty() && results.bars.empty() && results.stability.empty() &&
-         results.causes.empty() && results.figures.empty() && results.tables.empty() &&
-         results.distributions.empty() && results.counters.empty() && results.seed_runs.empty() &&
-         results.histories.empty() && results.warnings.empty();
+         results.causes.empty() && results.duets.empty() && results.figures.empty() &&
+         results.tables.empty() && results.distributions.empty() && results.counters.empty() &&
+         results.seed_runs.empty() && results.histories.empty() && results.warnings.empty();
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ inline constexpr const char* kRayCostFormat = "plumbline.ray_cost/1";
 inline constexpr const char* kBarFormat = "plumbline.bar/1";
 inline constexpr const char* kStabilityFormat = "plumbline.stability/1";
 inline constexpr const char* kCausesFormat = "plumbline.causes/1";
+inline constexpr const char* kDuetFormat = "plumbline.duet/1";
 inline constexpr const char* kFigureFormat = "plumbline.figure/1";
 inline constexpr const char* kTableFormat = "plumbline.table/1";
 inline constexpr const char* kDistributionFormat = "plumbline.distribution/1";
@@ -148,6 +149,22 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("set", r.set);
   visit("seed", r.seed);
   visit("twins", r.twins);
+}
+
+template <class Visitor, Is<DuetRecord> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("part", r.part);
+  visit("revision_a", r.revision_a);
+  visit("revision_b", r.revision_b);
+  visit("identical_code", r.identical_code);
+  visit("confidence", r.confidence);
+  visit("ratio", r.ratio);
+  visit("low", r.low);
+  visit("high", r.high);
+  visit("a_seconds", r.a_seconds);
+  visit("b_seconds", r.b_seconds);
+  visit("counters_a", r.counters_a);
+  visit("counters_b", r.counters_b);
 }
 
 template <>

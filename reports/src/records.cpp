@@ -31,6 +31,12 @@ void require_expected_causes(const CausesRecord& record) {
   }
 }
 
+void require_pairs(const DuetRecord& record) {
+  if (record.a_seconds.size() != record.b_seconds.size()) {
+    throw FormatError("duet of \"" + record.part + "\": the sides have not as many times");
+  }
+}
+
 }  // namespace
 
 std::string to_json(const verify::CheckResult& result) {
@@ -102,6 +108,25 @@ CausesRecord parse_causes_record(std::string_view json) {
   CausesRecord record = detail::parse_document<CausesRecord>(detail::kCausesFormat, json);
   require_expected_causes(record);
   return record;
+}
+
+std::string to_json(const DuetRecord& record) {
+  require_pairs(record);
+  return detail::document(detail::kDuetFormat, record);
+}
+
+DuetRecord parse_duet_record(std::string_view json) {
+  DuetRecord record = detail::parse_document<DuetRecord>(detail::kDuetFormat, json);
+  require_pairs(record);
+  return record;
+}
+
+std::string_view verdict(const DuetRecord& record) {
+  if (record.a_seconds.empty()) return record.identical_code ? "identical code" : "not timed";
+  constexpr double kMost = 1 + kDuetMargin, kLeast = 1 / kMost;
+  if (record.low > kMost) return "slower";
+  if (record.high < kLeast) return "faster";
+  return record.low >= kLeast && record.high <= kMost ? "no change" : "undecided";
 }
 
 std::string to_json(const Figure& figure) {

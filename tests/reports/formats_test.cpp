@@ -41,6 +41,7 @@ TEST(Formats, EveryRecordSurvivesTheRoundTrip) {
   EXPECT_EQ(parse_bar(to_json(sample_bar())), sample_bar());
   EXPECT_EQ(parse_stability_record(to_json(sample_stability_record())), sample_stability_record());
   EXPECT_EQ(parse_causes_record(to_json(sample_causes_record())), sample_causes_record());
+  EXPECT_EQ(parse_duet_record(to_json(sample_duet_record())), sample_duet_record());
   EXPECT_EQ(parse_figure(to_json(sample_figure())), sample_figure());
   EXPECT_EQ(reports::parse_table(to_json(sample_table())), sample_table());
   EXPECT_EQ(parse_distribution(to_json(sample_distribution())), sample_distribution());
@@ -97,6 +98,7 @@ TEST(Formats, EachStatesItsFormatFirstOnOneLine) {
       {to_json(sample_bar()), "plumbline.bar/1"},
       {to_json(sample_stability_record()), "plumbline.stability/1"},
       {to_json(sample_causes_record()), "plumbline.causes/1"},
+      {to_json(sample_duet_record()), "plumbline.duet/1"},
       {to_json(sample_figure()), "plumbline.figure/1"},
       {to_json(sample_table()), "plumbline.table/1"},
   };
@@ -105,6 +107,39 @@ TEST(Formats, EachStatesItsFormatFirstOnOneLine) {
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
     EXPECT_EQ(Json::parse(text)["format"], format);
   }
+}
+
+TEST(Duets, SidesHaveAsManyTimes) {
+  reports::DuetRecord record = sample_duet_record();
+  record.a_seconds.push_back(1);
+  EXPECT_THROW(reports::to_json(record), FormatError);
+  Json json = Json::parse(reports::to_json(sample_duet_record()));
+  json["b_seconds"] = Json::array({0.5});
+  EXPECT_THROW(reports::parse_duet_record(json.dump()), FormatError);
+}
+
+TEST(Duets, AreJudgedByTheWholeInterval) {
+  const auto verdict_of = [](double low, double high) {
+    reports::DuetRecord record;
+    record.a_seconds = record.b_seconds = {1};
+    record.low = low;
+    record.high = high;
+    return reports::verdict(record);
+  };
+  EXPECT_EQ(verdict_of(1.0101, 1.03), "slower");
+  EXPECT_EQ(verdict_of(1.0099, 1.03), "undecided") << "reaches into what layout may do";
+  EXPECT_EQ(verdict_of(0.97, 0.99), "faster");
+  EXPECT_EQ(verdict_of(0.97, 0.9902), "undecided");
+  EXPECT_EQ(verdict_of(0.9902, 1.0099), "no change");
+  EXPECT_EQ(verdict_of(0.9, 1.1), "undecided");
+  EXPECT_EQ(verdict_of(std::nan(""), std::nan("")), "undecided");
+}
+
+TEST(Duets, WithoutTimesSayWhy) {
+  reports::DuetRecord record;
+  EXPECT_EQ(reports::verdict(record), "not timed");
+  record.identical_code = true;
+  EXPECT_EQ(reports::verdict(record), "identical code");
 }
 
 TEST(Bars, AreMetOnlyWhereTheWholeIntervalIs) {

@@ -40,6 +40,7 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
     bench.append(sample_bar());
     bench.append(sample_stability_record());
     bench.append(sample_causes_record());
+    bench.append(sample_duet_record());
     bench.append(sample_figure());
     bench.append(sample_table());
     bench.append(sample_distribution());
@@ -59,6 +60,7 @@ TEST(ResultLog, RecordsOfEveryKindAreFoundAgainInSubdirectoriesToo) {
   EXPECT_EQ(results.bars.size(), 1u);
   EXPECT_EQ(results.stability.size(), 1u);
   EXPECT_EQ(results.causes.size(), 1u);
+  EXPECT_EQ(results.duets.size(), 1u);
   EXPECT_EQ(results.figures.size(), 1u);
   EXPECT_EQ(results.tables.size(), 1u);
   EXPECT_EQ(results.distributions.size(), 1u);

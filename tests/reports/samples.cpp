@@ -145,6 +145,23 @@ reports::CausesRecord sample_causes_record() {
   return record;
 }
 
+reports::DuetRecord sample_duet_record() {
+  reports::DuetRecord record;
+  record.part = "bsdf-sample/ggx_conductor";
+  record.revision_a = "0123456789abcdef0123456789abcdef01234567";
+  record.revision_b = "0123456789abcdef0123456789abcdef01234567+";
+  record.identical_code = true;
+  record.confidence = 0.999;
+  record.ratio = 1.03125;
+  record.low = 1.015625;
+  record.high = 1.0625;
+  record.a_seconds = {0.25, 0.125};
+  record.b_seconds = {0.5, 0.0625};
+  record.counters_a = {{"rays", 12}, {"result", 18'446'744'073'709'551'613u}};
+  record.counters_b = {{"rays", 13}};
+  return record;
+}
+
 reports::Figure sample_figure() {
   reports::Figure figure;
   figure.group = "Integrals with known answers";

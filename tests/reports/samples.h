@@ -13,6 +13,7 @@ reports::SpeedPoint sample_speed_point();
 reports::RayCost sample_ray_cost();
 reports::Bar sample_bar();
 reports::StabilityRecord sample_stability_record();
+reports::DuetRecord sample_duet_record();
 reports::CausesRecord sample_causes_record();
 reports::Figure sample_figure();
 reports::Table sample_table();

@@ -8,6 +8,7 @@
 
 #include <plumbline/reports/bench_record.h>
 #include <plumbline/reports/causes_record.h>
+#include <plumbline/reports/duet_record.h>
 #include <plumbline/reports/environment.h>
 #include <plumbline/reports/errors.h>
 #include <plumbline/reports/figure.h>
@@ -46,6 +47,7 @@ class ResultLog {
   void append(const Bar& bar) { append_line(to_json(bar)); }
   void append(const StabilityRecord& record) { append_line(to_json(record)); }
   void append(const CausesRecord& record) { append_line(to_json(record)); }
+  void append(const DuetRecord& record) { append_line(to_json(record)); }
   void append(const Figure& figure) { append_line(to_json(figure)); }
   void append(const Table& table) { append_line(to_json(table)); }
   void append(const Distribution& distribution) { append_line(to_json(distribution)); }
@@ -82,6 +84,7 @@ struct Results {
   std::vector<Bar> bars;
   std::vector<StabilityRecord> stability;
   std::vector<CausesRecord> causes;
+  std::vector<DuetRecord> duets;
   std::vector<Figure> figures;
   std::vector<Table> tables;
   std::vector<Distribution> distributions;
