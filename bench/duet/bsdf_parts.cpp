@@ -42,7 +42,7 @@ Counters sample_all(const Shading& shading) {
   Counters counters;
   for (std::size_t i = 0; i < shading.inputs.u.size(); ++i) {
     const auto s = shading.bsdfs.sample(0, shading.inputs.wo[i], shading.inputs.u[i]);
-    if (s) counters.result = with_bits(counters.result, double{s->wi.x + s->weight.g});
+    if (s) counters.result = with_bits(counters.result, static_cast<double>(s->wi.x + s->weight.g));
   }
   return counters;
 }
@@ -51,7 +51,7 @@ Counters evaluate_all(const Shading& shading) {
   Counters counters;
   for (std::size_t i = 0; i < shading.inputs.u.size(); ++i) {
     const auto value = shading.bsdfs.evaluate(0, shading.inputs.wo[i], shading.inputs.wi[i]);
-    counters.result = with_bits(counters.result, double{value.f.g + value.pdf_w});
+    counters.result = with_bits(counters.result, static_cast<double>(value.f.g + value.pdf_w));
   }
   return counters;
 }

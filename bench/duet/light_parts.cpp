@@ -38,7 +38,7 @@ Counters sample_lights(const LightSet& lights, const Inputs& inputs) {
     const auto s = lights.sample(Vec3f{}, u);
     if (!s) continue;
     const float density = lights.pdf_at_hit(0, Vec3f{}, s->wi);
-    counters.result = with_bits(counters.result, double{s->wi.x + density});
+    counters.result = with_bits(counters.result, static_cast<double>(s->wi.x + density));
   }
   return counters;
 }
@@ -63,7 +63,7 @@ Counters draw_numbers(SamplerType type, Size size) {
       const Vec2f u = random.next_2d();
       sum += u.x + u.y;
     }
-    counters.result = with_bits(counters.result, double{sum});
+    counters.result = with_bits(counters.result, static_cast<double>(sum));
   }
   return counters;
 }
