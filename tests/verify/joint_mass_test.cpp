@@ -145,6 +145,30 @@ TEST(CubeMass, OfAJumpIsWithinItsErrorToo) {
   }
 }
 
+/// Of few cells the fit is off by far: what nodes add to it has to be of the right sign.
+TEST(CubeMass, OfAJumpIsRightOnAverageOverManySeeds) {
+  // As above, with a second row: x + y + z > 1.8.
+  constexpr int kRows = 500, kRuns = 20;
+  double above = 0;
+  for (int i = 0; i < kRows; ++i) {
+    for (int j = 0; j < kRows; ++j) {
+      const double x = (i + 0.5) / kRows, y = (j + 0.5) / kRows;
+      const double from = std::min(1.0, std::max(0.0, 1.8 - x - y));
+      above += 4 * x * y * (1 - from * from) / kRows / kRows;
+    }
+  }
+  double sum = 0, variance = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    const std::uint64_t seed = tests::check_seed("jump on average " + std::to_string(run));
+    const MassIntegral uniform = mass_of({3, true}, seed, 20'000, 5).of_uniform;
+    sum += uniform.total / kRuns;
+    variance += uniform.variance_of_total / kRuns / kRuns;
+  }
+  // Six standard errors, and what the rows leave.
+  EXPECT_NEAR(sum, 0.5 + above, 6 * std::sqrt(variance) + 1e-5);
+  EXPECT_LT(6 * std::sqrt(variance), 0.01);
+}
+
 TEST(CubeMass, SaysWhereItRestsOnOwnSamples) {
   EXPECT_LT(mass_of({4, false}, tests::check_seed("rests"), 200'000, 6).rests_on_own, 0.001);
   // A spike of a millionth of the cube that all samples fall into.

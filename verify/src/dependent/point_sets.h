@@ -21,7 +21,7 @@ class PointSet {
     return numbers_[i * dimensions_ + dimension];
   }
 
-  /// "point 3 = (0.5, 1), dimension 1, is outside [0, 1)"; empty if all are inside.
+  /// "dimension 1 of point 3 is 1, outside [0, 1)"; empty if all are inside.
   std::string outside() const;
 
  private:
