@@ -128,7 +128,7 @@ TEST(JointIntegral, IsHeldToTheToleranceThatIsStated) {
 
 /// Clamped to a value, or rounded to about one.
 TEST(ChiSquare, SaysHowManySamplesLieInAPoint) {
-  for (const double about : {1e-14}) {
+  for (const double about : {0.0, 1e-14}) {
     SamplingPair clamped = ramp();
     clamped.sample = [about](const Uniforms& u) {
       return on_line(u[0] < 0.25 ? 0.5 + about * u[0] : std::sqrt(u[0]));

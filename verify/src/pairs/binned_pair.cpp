@@ -149,19 +149,21 @@ void BinnedPair::integrate_density(const ContractOptions& options, double mass_e
   const std::size_t own = draws_for(pair_, std::max(kPilotsPerBin << depth_, kLeastPilots), random);
   std::vector<Point2> pilot = draw_own(pair_, own, random);
   tree_.emplace(pilot, depth_, pair_.domain.dimension());
-  measure_lines(pilot);
+  measure_lines(pilot.size());
   expected_ = integrate_over(*tree_, pair_, {}, own, options, mass_error);
 }
 
-void BinnedPair::measure_lines(const std::vector<Point2>& pilot) {
-  std::size_t on_lines = 0;
-  for (const Point2& p : pilot) {
-    const Box& box = tree_->box(tree_->locate(p));
-    const bool narrow = box.high[0] - box.low[0] < kLine ||
-                        (pair_.domain.dimension() == 2 && box.high[1] - box.low[1] < kLine);
-    on_lines += narrow ? 1 : 0;
+void BinnedPair::measure_lines(std::size_t pilots) {
+  // Every bin was given as many of the pilot samples, equal ones to both sides of a cut.
+  if (pilots < tree_->bins()) return;
+  std::size_t narrow = 0;
+  for (std::size_t bin = 0; bin < tree_->bins(); ++bin) {
+    const Box& box = tree_->box(bin);
+    const bool first = box.high[0] - box.low[0] < kLine;
+    const bool second = pair_.domain.dimension() == 2 && box.high[1] - box.low[1] < kLine;
+    if (first || second) ++narrow;
   }
-  on_lines_ = static_cast<double>(on_lines) / std::max(1.0, static_cast<double>(pilot.size()));
+  on_lines_ = static_cast<double>(narrow) / static_cast<double>(tree_->bins());
 }
 
 MassIntegral integrate_over_domain(const SamplingPair& pair, const Many<double(Vec3)>& function,

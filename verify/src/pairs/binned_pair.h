@@ -92,7 +92,7 @@ class BinnedPair {
   void integrate_density(const ContractOptions& options, double mass_error);
   void tabulate_discrete();
   void measure_rounding(std::uint64_t seed);
-  void measure_lines(const std::vector<Point2>& pilot);
+  void measure_lines(std::size_t pilots);
   void count_atom(const SampleRecord& sample);
   void count(std::span<const std::optional<SampleRecord>> samples);
   bool inside(const Vec3& x) const;
