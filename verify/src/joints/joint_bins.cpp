@@ -210,7 +210,8 @@ BinTable JointBins::table(int depth) const {
   const double n = static_cast<double>(counts_.drawn);
   const std::size_t bins = std::size_t{1} << depth;
   const int finer = depth_ - depth;
-  BinTable table{std::vector<double>(bins), std::vector<double>(bins), std::vector<double>(bins)};
+  BinTable table{
+      std::vector<double>(bins), std::vector<double>(bins), std::vector<double>(bins), {}};
   for (std::size_t i = 0; i < counts_.bins.size(); ++i) {
     table.expected[i >> finer] += n * expected_.integral.value[i];
     table.variance[i >> finer] += n * n * expected_.integral.variance[i];

@@ -71,6 +71,10 @@ class BinnedPair {
   /// lobes in float.
   double rounding() const { return rounding_; }
 
+  /// Variance of the mass that samples find in a finest bin, by where they are rounded to: only
+  /// lattice points lie in it, and how many is off by what lies at its borders.
+  double rounding_of(std::size_t bin) const { return bin < lattice_.size() ? lattice_[bin] : 0; }
+
   /// A point of a finest bin with about the mass that lies around it, and the measure.
   struct Node {
     Vec3 x;
@@ -92,6 +96,7 @@ class BinnedPair {
   void integrate_density(const ContractOptions& options, double mass_error);
   void tabulate_discrete();
   void measure_rounding(std::uint64_t seed);
+  void measure_lattice();
   void measure_lines(std::size_t pilots);
   void count_atom(const SampleRecord& sample);
   void count(std::span<const std::optional<SampleRecord>> samples);
@@ -105,6 +110,7 @@ class BinnedPair {
   double rounding_ = 0, on_lines_ = 0;
   std::optional<BinTree> tree_;
   MassIntegral expected_;
+  std::vector<double> lattice_;  // variance per finest bin
   BinCounts counts_;
 };
 

@@ -31,15 +31,17 @@ constexpr double kMostAtomsTested = 64;
 
 struct Category {
   double expected = 0, variance = 0, observed = 0;  // variance: of `expected`
+  double rounding = 0;                              // variance: by where samples are rounded to
 
   void add(const Category& c) {
     expected += c.expected;
     variance += c.variance;
     observed += c.observed;
+    rounding += c.rounding;
   }
   bool resolved(double error_of_mass) const { return variance <= error_of_mass * expected; }
   double pull() const {
-    return (observed - expected) / std::sqrt(std::max(expected, 1.0) + variance);
+    return (observed - expected) / std::sqrt(std::max(expected, 1.0) + variance + rounding);
   }
 };
 
@@ -68,7 +70,7 @@ double exact_p(const std::vector<Category>& categories, double n) {
   if (categories.empty()) return 1;
   double smallest = 1;
   for (const Category& c : categories) {
-    const double p = c.resolved(kErrorOfMass)
+    const double p = c.resolved(kErrorOfMass) && !(c.rounding > kErrorOfMass * c.expected)
                          ? binomial_two_sided(c.observed, n, std::min(1.0, c.expected / n))
                          : 2 * normal_tail(std::abs(c.pull()));
     smallest = std::min(smallest, p);
@@ -90,7 +92,7 @@ void test_categories(LevelTest& test, Categories& categories, double n) {
   for (const Category& c : categories.large) {
     const double square = (c.observed - c.expected) * (c.observed - c.expected);
     test.statistic += square / c.expected;
-    with_error += square / (c.expected + c.variance);
+    with_error += square / (c.expected + c.variance + c.rounding);
     inverse_expected += 1 / c.expected;
   }
   const double count = static_cast<double>(categories.large.size());
@@ -113,7 +115,8 @@ LevelTest test_level(const BinTable& table, int depth, double n, double error_of
   Categories categories;
   categories.error_of_mass = error_of_mass;
   for (std::size_t i = 0; i < table.expected.size(); ++i) {
-    const Category bin{table.expected[i], table.variance[i], table.observed[i]};
+    const Category bin{table.expected[i], table.variance[i], table.observed[i],
+                       table.rounding.empty() ? 0 : table.rounding[i]};
     categories.add(bin);
     if (std::abs(bin.pull()) > std::abs(test.worst_pull)) {
       test.worst_bin = i;
@@ -135,8 +138,10 @@ BinTable table_of(const BinnedPair& pair, int depth) {
   const double n = static_cast<double>(pair.counts().drawn);
   const std::size_t bins = std::size_t{1} << depth;
   const int finer = pair.depth() - depth;
-  BinTable table{std::vector<double>(bins), std::vector<double>(bins), std::vector<double>(bins)};
+  BinTable table{std::vector<double>(bins), std::vector<double>(bins), std::vector<double>(bins),
+                 std::vector<double>(bins)};
   for (std::size_t i = 0; i < pair.expected().value.size(); ++i) {
+    table.rounding[i >> finer] += n * n * pair.rounding_of(i);
     table.expected[i >> finer] += n * pair.expected().value[i];
     table.variance[i >> finer] += n * n * pair.expected().variance[i];
     table.observed[i >> finer] += static_cast<double>(pair.counts().bins[i]);

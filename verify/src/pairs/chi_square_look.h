@@ -13,6 +13,7 @@ namespace plumbline::verify {
 /// Expected and observed counts of the bins of one depth.
 struct BinTable {
   std::vector<double> expected, variance, observed;  ///< variance: of the expected
+  std::vector<double> rounding;  ///< variance that rounded samples add; empty: none
 };
 BinTable table_of(const BinnedPair& pair, int depth);
 
