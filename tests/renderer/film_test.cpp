@@ -26,6 +26,20 @@ TEST(Film, MergedMomentsEqualThoseOfOneStream) {
   EXPECT_NEAR(first.variance().b, whole.variance().b, 1e-9 * whole.variance().b);
 }
 
+TEST(Film, MergingOneSampleOrNoneIsAddingThem) {
+  PixelMoments moments, one, none;
+  moments.merge(none);
+  EXPECT_EQ(moments.count, 0u);
+  EXPECT_EQ(moments.mean.r, 0.0);
+  moments.add({1, 1, 1});
+  one.add({3, 3, 3});
+  moments.merge(one);
+  moments.merge(none);
+  EXPECT_EQ(moments.count, 2u);
+  EXPECT_EQ(moments.mean.r, 2.0);
+  EXPECT_EQ(moments.variance().r, 2.0);
+}
+
 TEST(Film, VarianceOfAnArithmeticProgressionIsExact) {
   PixelMoments moments;
   for (int i = 0; i < 10; ++i) moments.add(sample_at(i));
