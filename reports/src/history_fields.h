@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string_view>
+
 #include <plumbline/reports/history_record.h>
 
 #include "record_fields.h"
@@ -8,6 +11,20 @@
 namespace plumbline::reports::detail {
 
 inline constexpr const char* kHistoryFormat = "plumbline.history/1";
+
+template <>
+struct EnumWords<PartStatus> {
+  static std::string_view word(PartStatus status) { return to_string(status); }
+  static std::optional<PartStatus> value(std::string_view word) { return part_status(word); }
+};
+
+template <class Visitor, Is<HistoryPart> Record>
+void visit_fields(Visitor& visit, Record& r) {
+  visit("name", r.name);
+  visit("status", r.status);
+  visit("seconds", r.seconds);
+  visit("note", r.note);
+}
 
 template <class Visitor, Is<HistoryNight> Record>
 void visit_fields(Visitor& visit, Record& r) {
@@ -22,6 +39,7 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("skipped_parts", r.skipped_parts);
   visit("gate_runs", r.gate_runs);
   visit("failing_gate_runs", r.failing_gate_runs);
+  if (visit.wants("parts", !r.parts.empty())) visit("parts", r.parts);
 }
 
 template <class Visitor, Is<HistoryChange> Record>

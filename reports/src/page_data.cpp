@@ -1,9 +1,12 @@
 #include "page_data.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <plumbline/reports/power_fit.h>
 
@@ -157,10 +160,35 @@ Json list_with_exact_seeds(const std::vector<Record>& records) {
   return list;
 }
 
+/// To five significant digits, more than a plot shows, in a third of the space.
+void round_for_plots(std::vector<double>& values) {
+  for (double& value : values) {
+    if (!std::isfinite(value)) continue;
+    std::array<char, 32> text;
+    const auto written = std::to_chars(text.data(), text.data() + text.size(), value,
+                                       std::chars_format::scientific, 4);
+    std::from_chars(text.data(), written.ptr, value);
+  }
+}
+
+HistoryRecord rounded_for_plots(HistoryRecord history) {
+  for (TrackedNumber& number : history.numbers) {
+    if (number.counter) continue;
+    for (std::vector<double>* values : {&number.median, &number.low, &number.high}) {
+      round_for_plots(*values);
+    }
+  }
+  for (TrackedSequence& sequence : history.sequences) {
+    round_for_plots(sequence.bound);
+    round_for_plots(sequence.evidence);
+  }
+  return history;
+}
+
 Json histories_to_json(const std::vector<HistoryRecord>& histories) {
   Json list = Json::array();
   for (const HistoryRecord& history : histories) {
-    Json json = record_to_json(history);
+    Json json = record_to_json(rounded_for_plots(history));
     json["failing_gate_runs"] = list_with_exact_seeds(history.failing_gate_runs);
     list.push_back(std::move(json));
   }

@@ -137,8 +137,24 @@ TEST(Page, HoldsEveryRecordOfTheResults) {
   EXPECT_EQ(data["tables"][0]["rows"][1][1], "1.25");
   EXPECT_EQ(data["history"][0]["numbers"][0]["median"][1], 2);
   EXPECT_EQ(data["history"][0]["failing_gate_runs"][0]["seed"], "18446744073709551614");
+  EXPECT_EQ(data["history"][0]["nights"][1]["parts"][0]["status"], "timed out");
   EXPECT_EQ(data["images"][0]["group"], "furnace_sphere");
   EXPECT_EQ(data["answers"]["furnace_sphere"], "L = Le / (1 - albedo)");
+}
+
+TEST(Page, ValuesOfPlotsOverNightsAreRoundedButNotWhatIsCounted) {
+  PageInput input = sample_input();
+  reports::TrackedNumber& time = input.results.histories[0].numbers[0];
+  time.counter = false;
+  time.median = {1.23456789, std::numeric_limits<double>::quiet_NaN()};
+  reports::TrackedNumber rays = time;
+  rays.counter = true;
+  rays.median = {123'456'789, 987'654'321};
+  input.results.histories[0].numbers.push_back(rays);
+  const Json numbers = data_of(make_page(input))["history"][0]["numbers"];
+  EXPECT_EQ(numbers[0]["median"][0], 1.2346);
+  EXPECT_TRUE(numbers[0]["median"][1].is_null());
+  EXPECT_EQ(numbers[1]["median"][0], 123'456'789);
 }
 
 TEST(Page, SeedsAreTextBecauseTheBrowserWouldRoundThem) {

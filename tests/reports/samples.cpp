@@ -202,8 +202,19 @@ reports::HistoryRecord sample_history() {
   reports::HistoryRecord record;
   record.machine = "a processor x 2, g++, -O3";
   record.kind = "nightly";
-  record.nights = {{1, "2024-03-01T12:00:00Z", "abc", true, "01", 10, 2, 3, 4, 5, 6},
-                   {7, "2024-03-02T12:00:00Z", "def", false, "02", 11, 12, 13, 14, 15, 16}};
+  record.nights = {{1, "2024-03-01T12:00:00Z", "abc", true, "01", 10, 2, 3, 4, 5, 6, {}},
+                   {7,
+                    "2024-03-02T12:00:00Z",
+                    "def",
+                    false,
+                    "02",
+                    11,
+                    12,
+                    13,
+                    14,
+                    15,
+                    16,
+                    {{"mutants", reports::PartStatus::timed_out, 90.5, "ended"}}}};
   reports::HistoryChange change;
   change.drift = change.regression = true;
   change.first_night = 0;

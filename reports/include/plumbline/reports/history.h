@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <plumbline/reports/environment.h>
@@ -20,24 +19,6 @@ class Database;
 }  // namespace SQLite
 
 namespace plumbline::reports {
-
-enum class PartStatus { passed, failed, timed_out, skipped };
-
-/// "passed", "failed", "timed out" or "skipped".
-std::string_view to_string(PartStatus status);
-
-/// The status that a word stands for; nullopt if none.
-std::optional<PartStatus> part_status(std::string_view word);
-
-/// One part of a night: "mutants".
-struct HistoryPart {
-  std::string name;
-  PartStatus status = PartStatus::passed;
-  double seconds = 0;  ///< wall clock
-  std::string note;    ///< why it was skipped or failed; may be empty
-
-  bool operator==(const HistoryPart&) const = default;
-};
 
 /// What every run has, without its measurements.
 struct HistoryRun {

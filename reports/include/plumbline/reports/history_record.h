@@ -21,6 +21,7 @@ struct HistoryNight {
   std::uint64_t checks = 0, unexpected = 0;
   std::uint64_t failed_parts = 0, skipped_parts = 0;
   std::uint64_t gate_runs = 0, failing_gate_runs = 0;  ///< with fresh seeds
+  std::vector<HistoryPart> parts;                      ///< in the order in which they ran
 
   bool operator==(const HistoryNight&) const = default;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,24 @@ struct SeedRun {
   std::vector<std::string> failures;  ///< names of the tests that failed
 
   bool operator==(const SeedRun&) const = default;
+};
+
+enum class PartStatus { passed, failed, timed_out, skipped };
+
+/// "passed", "failed", "timed out" or "skipped".
+std::string_view to_string(PartStatus status);
+
+/// The status that a word stands for; nullopt if none.
+std::optional<PartStatus> part_status(std::string_view word);
+
+/// One part of a night: "mutants".
+struct HistoryPart {
+  std::string name;
+  PartStatus status = PartStatus::passed;
+  double seconds = 0;  ///< wall clock
+  std::string note;    ///< why it was skipped or failed; may be empty
+
+  bool operator==(const HistoryPart&) const = default;
 };
 
 /// @throws FormatError where a distribution or counter has no name, or a distribution no values
