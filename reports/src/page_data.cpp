@@ -160,13 +160,15 @@ Json list_with_exact_seeds(const std::vector<Record>& records) {
   return list;
 }
 
-/// To five significant digits, more than a plot shows, in a third of the space.
-void round_for_plots(std::vector<double>& values) {
+/// Significant digits of what is plotted: more than a plot shows, in a third of the space or less.
+constexpr int kDigitsOfNumbers = 5, kDigitsOfBounds = 3;
+
+void round_for_plots(std::vector<double>& values, int digits) {
   for (double& value : values) {
     if (!std::isfinite(value)) continue;
     std::array<char, 32> text;
     const auto written = std::to_chars(text.data(), text.data() + text.size(), value,
-                                       std::chars_format::scientific, 4);
+                                       std::chars_format::scientific, digits - 1);
     std::from_chars(text.data(), written.ptr, value);
   }
 }
@@ -175,12 +177,12 @@ HistoryRecord rounded_for_plots(HistoryRecord history) {
   for (TrackedNumber& number : history.numbers) {
     if (number.counter) continue;
     for (std::vector<double>* values : {&number.median, &number.low, &number.high}) {
-      round_for_plots(*values);
+      round_for_plots(*values, kDigitsOfNumbers);
     }
   }
   for (TrackedSequence& sequence : history.sequences) {
-    round_for_plots(sequence.bound);
-    round_for_plots(sequence.evidence);
+    round_for_plots(sequence.bound, kDigitsOfBounds);
+    round_for_plots(sequence.evidence, kDigitsOfBounds);
   }
   return history;
 }

@@ -151,10 +151,12 @@ TEST(Page, ValuesOfPlotsOverNightsAreRoundedButNotWhatIsCounted) {
   rays.counter = true;
   rays.median = {123'456'789, 987'654'321};
   input.results.histories[0].numbers.push_back(rays);
+  input.results.histories[0].sequences[0].bound[0] = 0.0012345;
   const Json numbers = data_of(make_page(input))["history"][0]["numbers"];
   EXPECT_EQ(numbers[0]["median"][0], 1.2346);
   EXPECT_TRUE(numbers[0]["median"][1].is_null());
   EXPECT_EQ(numbers[1]["median"][0], 123'456'789);
+  EXPECT_EQ(data_of(make_page(input))["history"][0]["sequences"][0]["bound"][0], 0.00123);
 }
 
 TEST(Page, SeedsAreTextBecauseTheBrowserWouldRoundThem) {
