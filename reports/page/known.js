@@ -36,25 +36,13 @@ function sceneCard(name, images, checks) {
 function scenePlace(name, images) {
   const checks = answersOf.get(name) ?? [];
   return element('div', {'data-scene': name, className: checks.length > 0 ? 'answered' : null},
-    whenNear(() => sceneCard(name, images, checks)));
+    whenNear(() => sceneCard(name, images, checks), 'to-come'));
 }
 
 /** Groups with something to compare stand first: they say most. */
 function sortedScenes() {
   return [...groupBy(data.images, (image) => image.group)]
     .sort((a, b) => (b[1].length > 1) - (a[1].length > 1) || naturalOrder(a[0], b[0]));
-}
-
-/** Cards are made as they come near the window: decoding all pictures takes time. */
-function whenNear(make) {
-  const place = element('div', {className: 'to-come'});
-  const observer = new IntersectionObserver((entries) => {
-    if (!entries.some((entry) => entry.isIntersecting)) return;
-    observer.disconnect();
-    place.replaceWith(make());
-  }, {rootMargin: '600px'});
-  observer.observe(place);
-  return place;
 }
 
 function addImages() {

@@ -16,6 +16,7 @@ function addViews() {
   addStability();
   addCauses();
   addFigures();
+  addHistory();
   addSearch();
 }
 

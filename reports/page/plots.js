@@ -77,6 +77,7 @@ function chartOptions(x, y) {
   return {
     animation: false,
     maintainAspectRatio: false,
+    layout: {padding: {right: 10}},  // for half of the last number of an axis
     interaction: {mode: 'nearest', intersect: false},
     scales: {x: axisOptions(x), y: axisOptions(y)},
     plugins: {
@@ -368,10 +369,11 @@ function plainTable({columns, rows}) {
     element('thead', {}, cells('th', columns)), element('tbody', {}, rows.map((row) => cells('td', row)))));
 }
 
-const figureGroups = () => groupBy([...data.figures, ...data.tables], (item) => item.group);
+/** Groups that have a view of their own: what a history can see stands with the history. */
+const figureGroups = () => groupBy([...data.figures, ...data.tables].filter((item) => item.group !== kHistoryFigures), (item) => item.group);
 
 /** The name of the view of a group: its words, so that links outlive a new group. */
-const figureViewOf = (group) => `about-${group.toLowerCase().replace(/[^a-z0-9]+/g, '-')}`;
+const figureViewOf = (group) => group === kHistoryFigures ? 'history' : `about-${group.toLowerCase().replace(/[^a-z0-9]+/g, '-')}`;
 
 function figureCards(items) {
   const card = (item, content) => element('div', {className: 'card'}, element('h3', {}, item.title),

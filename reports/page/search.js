@@ -16,9 +16,13 @@ function searchItems() {
   const bars = data.bars.map((b) => searchItem('Bars', b.name, b.verdict, '#bars', b.note));
   const twins = data.causes.flatMap((record) => record.twins.map((t) =>
     searchItem('Faults put in', t.name, t.fault, '#causes', `${t.expected} ${t.named}`)));
+  const numbers = data.history.flatMap((record) => record.numbers.map((n) =>
+    searchItem('Numbers over nights', n.name, n.unit, numberAddress(n), n.changes.map(changeKind).join(' '))));
+  const sequences = data.history.flatMap((record) => record.sequences.map((s) =>
+    searchItem('Checks over nights', s.subject, `${s.check} · ${s.verdict}`, addressOf('history', 'part', 'sequences'))));
   return [
     ...listedViews().map((v) => searchItem('Views', v.title, v.about, `#${v.id}`)),
-    ...scenes, ...bars, ...figures, ...data.checks.map(checkItem), ...twins,
+    ...scenes, ...bars, ...figures, ...numbers, ...data.checks.map(checkItem), ...sequences, ...twins,
   ];
 }
 

@@ -29,6 +29,18 @@ function partsOf(address) {
   }
 }
 
+/** Makes a node as its place comes near the window: decoding all pictures, or drawing all plots, takes time. */
+function whenNear(make, className = null) {
+  const node = element('div', {className});
+  const observer = new IntersectionObserver((entries) => {
+    if (!entries.some((entry) => entry.isIntersecting)) return;
+    observer.disconnect();
+    node.replaceWith(make());
+  }, {rootMargin: '600px'});
+  observer.observe(node);
+  return node;
+}
+
 function makeView(view) {
   const head = element('div', {className: 'section-head'}, element('h2', {}, view.title),
     view.about ? element('p', {}, view.about) : null);

@@ -30,10 +30,12 @@ def open_browser():
 class PageTest(unittest.TestCase):
     """Each test gets the page afresh; whatever the console says fails it."""
 
+    NIGHTS = True  # whether the results hold a history
+
     @classmethod
     def setUpClass(cls):
         cls.directory = tempfile.TemporaryDirectory()
-        cls.address = sample_results.make_page(cls.directory.name).as_uri()
+        cls.address = sample_results.make_page(cls.directory.name, cls.NIGHTS).as_uri()
         cls.browser = open_browser()
 
     @classmethod

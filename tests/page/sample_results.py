@@ -1,8 +1,10 @@
 """A small results directory that has something for every view of the page, and two rendered scenes."""
 
+import datetime
 import json
 import os
 import pathlib
+import random
 import subprocess
 
 # What a record says is text, whatever it looks like.
@@ -69,10 +71,85 @@ def measurements():
                {"name": "mis", "style": "points", "x": points, "y": fall, "low": [0.8 * y for y in fall], "high": [1.2 * y for y in fall]},
                {"name": "exact", "style": "dashed", "x": points, "y": fall, "low": [], "high": []}]}
     yield {"format": "plumbline.table/1", "group": "Faults put in", "title": "Mutants", "caption": "Larger is better.",
-           "columns": ["part", "seen"], "rows": [["verify", "98 %"], ["renderer", "97 %"]]}
+           "columns": ["part", "seen", *(f"seen after {n} seconds" for n in range(8))],
+           "rows": [["verify", "98 %", *8 * ["9 %"]], ["renderer", "97 %", *8 * ["9 %"]]]}
     yield {"format": "plumbline.environment/1", "version": "1.0.0", "commit": "0123456789abcdef", "dirty": True,
            "compiler": "g++ 12", "flags": "Release -O3", "cpu": "a processor", "cores": 2, "system": "Linux",
            "load_average": 0.5, "time": "2026-02-28T12:00:00Z", "libraries": {"embree": "3.13.5"}}
+
+
+NIGHTS = 60
+STEP, DRIFT, MISSING, ODD = 40, (20, 29), 10, 50  # nights of the history in which something happens
+
+
+def night(index):
+    day = datetime.date(2026, 1, 1) + datetime.timedelta(days=index)
+    status = "timed out" if index == 5 else "skipped" if index % 7 == 3 else "passed"
+    return {"run": index + 1, "time": f"{day}T02:00:00Z", "commit": f"{index // 3 + 1:02d}" + 38 * "c", "dirty": index == 7, "sources": "ab",
+            "checks": 4000, "unexpected": int(index == 20), "failed_parts": int(index == 5), "skipped_parts": int(index % 7 == 3),
+            "gate_runs": 4, "failing_gate_runs": int(index == 20), "parts": [
+                {"name": "gate", "status": "passed", "seconds": 2880.5, "note": ""},
+                {"name": "benchmarks", "status": "passed", "seconds": 180, "note": ""},
+                {"name": "mutants", "status": status, "seconds": 0 if status == "skipped" else 4500, "note": ""}]}
+
+
+def change(nights, first, last, before, after, **more):
+    ratio = after / before - 1
+    return {"drift": first != last, "regression": after > before, "first_night": first, "last_night": last,
+            "commit_before": nights[first - 1]["commit"], "commit_first": nights[first]["commit"], "commit_last": nights[last]["commit"],
+            "before": before, "after": after, "relative": ratio, "low": ratio - 0.01, "high": ratio + 0.01,
+            "means_p_value": 1e-6, "distribution_p_value": 2e-5} | more
+
+
+def tracked(name, levels, noise, changes=(), odd=(), **more):
+    median = [None if i == MISSING else level * (1 + noise(0.01)) for i, level in enumerate(levels)]
+    spread = [(m and m * 0.99, m and m * 1.01) for m in median]
+    return {"name": name, "unit": "ns", "counter": False, "lower_is_better": True, "median": median, "low": [low for low, _ in spread],
+            "high": [high for _, high in spread], "changes": list(changes), "odd_nights": list(odd)} | more
+
+
+def counted(name, values, changes=()):
+    return {"name": name, "unit": "rays", "counter": True, "lower_is_better": True, "median": values, "low": values, "high": values,
+            "changes": list(changes), "odd_nights": []}
+
+
+def sequence(subject, verdict, scale, restart, **more):
+    bound = [None if i == MISSING else scale / (i - (restart if i >= restart else 0) + 1) ** 0.5 for i in range(NIGHTS)]
+    return {"check": "mean", "subject": subject, "verdict": verdict, "nights": NIGHTS - restart, "tolerance": 0.01, "bound": bound,
+            "evidence": NIGHTS * [None], "reason": ""} | more
+
+
+def history():
+    """60 nights with 40 numbers: a step, a drift, a counter that changed, a check that was refuted, a seed that failed."""
+    gauss = random.Random(1).gauss
+    noise = lambda sigma: gauss(0, sigma)
+    nights = [night(i) for i in range(NIGHTS)]
+    flat = [50 + 0 * i for i in range(NIGHTS)]
+    step = [100 if i < STEP else 104 for i in range(NIGHTS)]
+    drift = [80 - 0.8 * min(max(i - DRIFT[0] + 1, 0), 10) for i in range(NIGHTS)]
+    odd = [50 if i != ODD else 65 for i in range(NIGHTS)]
+    numbers = [
+        tracked("bsdf_cost/ggx_conductor/sample", step, noise, [change(nights, STEP, STEP, 100, 104)]),
+        tracked("bsdf_cost/lambertian/eval", drift, noise, [change(nights, *DRIFT, 80, 72)]),
+        tracked("ray_replay/cornell/shadow rays in packets of sixteen", odd, noise, odd=[ODD]),
+        counted("speed/veach/mis/64 spp/rays", [10**9 if i < STEP else 10**9 + 7 for i in range(NIGHTS)],
+                [change(nights, STEP, STEP, 10**9, 10**9 + 7, means_p_value=0, distribution_p_value=0)]),
+        *(tracked(f"bsdf_cost/bsdf {i}/pdf", flat, noise) for i in range(30)),
+        *(counted(f"speed/scene {i}/rays", [10**6 + i] * NIGHTS) for i in range(6))]
+    sequences = [
+        sequence("furnace_sphere/mis 1,1 power=2/red", "fail", 0.02, 0, reason="all nights together are 0.004 above the answer"),
+        *(sequence(f"furnace_sphere/bsdf {i}/red", "pass", 0.01 + 0.002 * i, 30 if i % 2 else 0) for i in range(8)),
+        sequence("Lambertian/default/front 0°/chi_square", "pass", 0, 0, check="chi_square", tolerance=None, bound=NIGHTS * [None],
+                 evidence=[-0.1 * i for i in range(NIGHTS)])]
+    failing = {"seed": 2**64 - 2, "commit": "07cccccccccc", "time": nights[20]["time"], "tests": 2500, "failures": ["Sphere.Mean/0"]}
+    return {"format": "plumbline.history/1", "machine": "a processor x 2, g++ 12, Release -O3", "kind": "nightly", "nights": nights,
+            "numbers": numbers, "sequences": sequences, "failing_gate_runs": [failing]}
+
+
+def other_machine():
+    """What another machine has: nothing yet but a night."""
+    return {"format": "plumbline.history/1", "machine": "another processor x 4", "kind": "test", "nights": [night(0) | {"parts": []}],
+            "numbers": [], "sequences": [], "failing_gate_runs": []}
 
 
 def render(command, directory, scene, name):
@@ -82,13 +159,13 @@ def render(command, directory, scene, name):
                         "-o", f"{stem}.exr", "--json", f"{stem}.json"], check=True, stdout=subprocess.DEVNULL)
 
 
-def make_page(directory):
-    """Writes results and their page below a directory; the page's path."""
+def make_page(directory, nights=True):
+    """Writes results, with a history of nights or without, and their page below a directory; the page's path."""
     command = os.environ["PLUMBLINE"]
     results = pathlib.Path(directory) / "results"
     results.mkdir()
     with open(results / "all.jsonl", "w", encoding="utf-8") as lines:
-        for record in (*checks(), *measurements()):
+        for record in (*checks(), *measurements(), *([history(), other_machine()] if nights else [])):
             lines.write(json.dumps(record) + "\n")
     scenes = pathlib.Path(__file__).parents[2] / "bench" / "scenes"
     render(command, results, str(scenes / "veach.xml"), "veach")

@@ -54,7 +54,7 @@ class Views(PageTest):
         self.one("body").send_keys("/")
         self.browser.switch_to.active_element.send_keys("furnace mis")
         self.wait_until(lambda: self.view() == "find")
-        self.wait_until(lambda: "4 found" in self.one("#view-find .results").text)  # a picture and three channels
+        self.wait_until(lambda: "5 found" in self.one("#view-find .results").text)  # a picture, three channels, one of them over nights
         self.assertIn("furnace_sphere/mis 1,1 power=2/red", self.one("#view-find").text)
         self.one("#find").send_keys(" no such word")
         self.wait_until(lambda: "0 found" in self.one("#view-find .results").text)
@@ -63,7 +63,8 @@ class Views(PageTest):
 
     def test_search_reaches_every_kind_of_thing(self):
         for words, found in (("two threads", "Bars"), ("mutants", "Figures and tables"), ("tangent", "Faults put in"),
-                             ("veach", "Pictures"), ("stability", "Views"), ("unexpected", "Checks")):
+                             ("veach", "Pictures"), ("stability", "Views"), ("unexpected", "Checks"), ("ggx regression", "Numbers over nights"),
+                             ("furnace fail", "Checks over nights")):
             self.go("find/" + urllib.parse.quote(words))
             self.assertIn(found, [h.text.split("\n")[0].rstrip("0123456789 ") for h in self.all("#view-find h3")])
 
