@@ -26,6 +26,7 @@ async function start() {
   startViews();
   // Canvases keep the colours that they were drawn in.
   for (const query of ['(prefers-color-scheme: dark)', 'print']) matchMedia(query).addEventListener('change', redrawCharts);
+  startPaper();
 }
 
 start().catch((error) => {

@@ -29,15 +29,22 @@ function partsOf(address) {
   }
 }
 
+const waiting = new Set();  // where something is made as it comes near the window
+
 /** Makes a node as its place comes near the window: decoding all pictures, or drawing all plots, takes time. */
 function whenNear(make, className = null) {
   const node = element('div', {className});
-  const observer = new IntersectionObserver((entries) => {
-    if (!entries.some((entry) => entry.isIntersecting)) return;
+  const fill = () => {
     observer.disconnect();
+    waiting.delete(place);
     node.replaceWith(make());
+  };
+  const observer = new IntersectionObserver((entries) => {
+    if (entries.some((entry) => entry.isIntersecting)) fill();
   }, {rootMargin: '600px'});
+  const place = {node, fill};
   observer.observe(node);
+  waiting.add(place);
   return node;
 }
 
@@ -45,7 +52,12 @@ function makeView(view) {
   const head = element('div', {className: 'section-head'}, element('h2', {}, view.title),
     view.about ? element('p', {}, view.about) : null);
   view.section = element('section', {id: `view-${view.id}`, className: 'view'}, head, view.make());
-  document.querySelector('main').append(view.section);
+  const next = views.slice(views.indexOf(view) + 1).find((v) => v.section);  // on paper they stand in this order
+  document.querySelector('main').insertBefore(view.section, next?.section ?? null);
+}
+
+function showOnly(isShown) {
+  for (const view of views) if (view.section) view.section.hidden = !isShown(view);
 }
 
 function showAddress() {
@@ -53,7 +65,7 @@ function showAddress() {
   const view = views.find((v) => v.id === id) ?? views[0];
   if (shownView) shownView.scroll = scrollY;
   if (!view.section) makeView(view);
-  for (const other of views) if (other.section) other.section.hidden = other !== view;
+  showOnly((other) => other === view);
   for (const other of listedViews()) other.link.toggleAttribute('aria-current', other === view);
   if (view !== shownView) scrollTo(0, view.open ? 0 : view.scroll);
   view.open?.(view.section, rest);

@@ -92,6 +92,13 @@ class History(PageTest):
                         "new PointerEvent('pointermove', {clientX: b.left + b.width * 10.7 / 60.4, clientY: b.top + 5}))", frame)
         self.assertIn("2026-01-11 · 04cccccc: not measured", card.find_element("css selector", ".reading").text)
 
+    def test_every_plot_has_ink(self):
+        self.run_script("layOutForPaper()")
+        inks = self.run_script("return [...document.querySelectorAll('.night-frame')].map((f) => f.querySelector('.median').getTotalLength())")
+        self.run_script("leavePaper()")
+        self.assertEqual(len(inks), 40)
+        self.assertGreater(min(inks), NIGHTS - 4)
+
     def test_plots_are_drawn_as_they_come_near(self):
         self.browser.get("about:blank")
         self.resize(380)

@@ -1,6 +1,5 @@
-"""The page does what its parts promise: addresses, keys, search, matrix, bins, slider, zoom, copy, paper."""
+"""The page does what its parts promise: addresses, keys, search, matrix, bins, slider, zoom, copy."""
 
-import base64
 import unittest
 import urllib.parse
 
@@ -211,23 +210,6 @@ class Views(PageTest):
         self.assertEqual(len(means), 4)
         for ratio in (r for image in means for r in image):
             self.assertAlmostEqual(ratio, 1, delta=2**-8, msg="each value is rounded by as much at most")
-
-    def test_prints_to_paper(self):
-        for name in ("overview", "matrix", "speed"):
-            self.go(name)
-            pdf = base64.b64decode(self.browser.execute_cdp_cmd("Page.printToPDF", {})["data"])
-            self.assertTrue(pdf.startswith(b"%PDF"))
-            self.assertGreater(len(pdf), 10_000, "an empty sheet has 1 kB")
-
-    def test_paper_is_light_in_a_dark_browser_too(self):
-        self.resize(1600, dark=True)
-        self.go("speed")
-        colour = "return Chart.getChart(document.querySelector('#view-speed canvas')).options.scales.x.title.color"
-        self.assertEqual(self.run_script(colour), "#9aa4ae")
-        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
-            "media": "print", "features": [{"name": "prefers-color-scheme", "value": "dark"}]})
-        self.wait_until(lambda: self.run_script(colour) == "#636b74")
-        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
 
     def test_console_is_heard(self):
         self.run_script("console.warn('heard')")
