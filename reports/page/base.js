@@ -131,6 +131,9 @@ function bodyCell(column, row) {
   return element('td', {className: names.filter(Boolean).join(' ') || null}, content);
 }
 
+/** A table without anything to focus, in a box that keys can scroll. */
+const scrollBox = (name, table) => element('div', {className: 'scroll', role: 'group', tabindex: 0, 'aria-label': name}, table);
+
 /** A sortable table of rows that all have the same columns. */
 function sortableTable(columns, rows) {
   const state = {column: null, sign: 1};

@@ -166,7 +166,7 @@ function nightsTable(nights) {
     }, `${left} more`)))] : []));
   };
   show(0, kNightsAtOnce);
-  return element('div', {className: 'scroll'}, element('table', {className: 'nights'}, element('thead', {}, element('tr', {}, heading.map((text) =>
+  return scrollBox('Nights', element('table', {className: 'nights'}, element('thead', {}, element('tr', {}, heading.map((text) =>
     element('th', {scope: 'col', className: ['Checks', 'Unexpected'].includes(text) ? 'number' : null}, text)))), body, more));
 }
 

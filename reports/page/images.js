@@ -69,7 +69,7 @@ class Comparison {
       : element('p', {className: 'muted'}, this.images[0].name);
     const controls = element('div', {className: 'controls'}, this.exposureSlider(), this.zoomButtons());
     const result = element('div', {className: 'comparison'}, caption,
-      element('div', {className: 'window'}, this.stack), this.comparable() ? this.splitSlider() : null, this.reading, controls);
+      element('div', {className: 'window', role: 'group', tabindex: 0, 'aria-label': `Picture of ${nameOf(this.name)}`}, this.stack), this.comparable() ? this.splitSlider() : null, this.reading, controls);
     this.start();
     return result;
   }

@@ -362,11 +362,10 @@ function figureDatasets(figure) {
   });
 }
 
-function plainTable({columns, rows}) {
+function plainTable({title, columns, rows}) {
   const cells = (tag, texts) =>
     element('tr', {}, texts.map((text, i) => element(tag, {className: i > 0 ? 'number' : ''}, text)));
-  return element('div', {className: 'scroll'}, element('table', {},
-    element('thead', {}, cells('th', columns)), element('tbody', {}, rows.map((row) => cells('td', row)))));
+  return scrollBox(title, element('table', {}, element('thead', {}, cells('th', columns)), element('tbody', {}, rows.map((row) => cells('td', row)))));
 }
 
 /** Groups that have a view of their own: what a history can see stands with the history. */

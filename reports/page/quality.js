@@ -45,7 +45,7 @@ function addCalibration() {
   const part = (check, index) => check.subject.split('/')[index];
   const figure = (check, name) => check.figures.find(([key]) => key === name)?.[1];
   const columns = [
-    textColumn('', (c) => c.subject.split('/').slice(2).join('/')),
+    textColumn('Case', (c) => c.subject.split('/').slice(2).join('/')),
     numberColumn('Runs', (c) => c.samples, formatCount),
     numberColumn('Measured', (c) => c.estimate, (x) => formatNumber(x, 4)),
     {name: '99.9 % interval', number: true, cell: (c) => formatInterval(c.interval_low, c.interval_high)},

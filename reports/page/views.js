@@ -79,7 +79,7 @@ function addSideBar() {
   const links = document.getElementById('contents');
   let number = 0;
   for (const [group, members] of groupBy(listedViews(), (view) => view.group)) {
-    links.append(element('h3', {}, group));
+    links.append(element('h2', {}, group));
     for (const view of members) {
       const key = ++number <= 9 ? String(number) : null;
       view.link = element('a', {href: `#${view.id}`, title: key ? `Key ${key}` : null}, view.title,
@@ -101,7 +101,7 @@ function stepView(step) {
 /** Keys: / searches, 1 to 9 and the arrows left and right go from view to view. */
 function onKey(event) {
   if (event.ctrlKey || event.metaKey || event.altKey || isTyped(event.target)) return;
-  const step = {ArrowLeft: -1, ArrowRight: 1}[event.key];
+  const step = event.target.matches('[tabindex]') ? 0 : {ArrowLeft: -1, ArrowRight: 1}[event.key];  // what scrolls takes them
   const view = /^[1-9]$/.test(event.key) ? listedViews()[Number(event.key) - 1] : null;
   if (event.key === '/') {
     event.preventDefault();
