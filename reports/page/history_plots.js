@@ -277,7 +277,7 @@ function sequencesPart({sequences, nights}) {
   };
   show('');
   const picture = bounded.length > 0 ? plot(() => sequenceDatasets(bounded, nights, ticked), {label: 'night', log: false},
-    {label: 'proven bound on the bias / tolerance', log: true}, 'Proven bounds over nights', {redraw: (f) => { draw = f; }}) : null;
+    {label: 'bound / tolerance', log: true}, 'Proven bounds over nights', {redraw: (f) => { draw = f; }}) : null;
   return historyPart('sequences', 'Proven by all nights together', 'Checks that go on from night to night: the proven bound on each bias ' +
     'shrinks, until the code changes and it begins again. What failed stands first, then what has proven least.',
   element('div', {className: 'card'},
