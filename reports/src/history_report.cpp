@@ -136,6 +136,7 @@ HistoryNight night_of(const History& history, const HistoryRun& run) {
   const CheckCounts counts = history.count_checks(run.id);
   night.checks = counts.checks;
   night.unexpected = counts.unexpected;
+  night.parts = run.parts;
   for (const HistoryPart& part : run.parts) {
     if (part.status == PartStatus::skipped) {
       ++night.skipped_parts;

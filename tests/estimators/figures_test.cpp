@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include <plumbline/renderer/estimators/estimators.h>
 #include <plumbline/reports/results.h>
 #include <plumbline/verify/detail/budget.h>
+#include <plumbline_tests/figures.h>
 #include <plumbline_tests/support.h>
 
 #include "estimator_cases.h"
@@ -27,14 +27,9 @@ using reports::SeriesStyle;
 
 constexpr int kReplicates = 64;
 
-/// Notes a figure for the page, if results are asked for, in a log per integral: the page shows
-/// logs by name, whatever the order in which tests ran. A figure whose series do not fit throws.
+/// In a log per integral.
 void publish(const Figure& figure) {
-  EXPECT_EQ(reports::parse_figure(reports::to_json(figure)).series.size(), figure.series.size());
-  const char* directory = std::getenv("PLUMBLINE_RESULTS");
-  if (directory == nullptr || *directory == '\0') return;
-  const std::string integral = figure.title.substr(0, figure.title.find(':'));
-  reports::ResultLog(directory, "figures_" + integral).append(figure);
+  tests::publish(figure, figure.title.substr(0, figure.title.find(':')));
 }
 
 Figure figure_of(const Integral1d& integral, const std::string& what) {

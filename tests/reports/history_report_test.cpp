@@ -54,6 +54,8 @@ HistoryRun night(std::size_t i) {
   run.kind = "nightly";
   run.seed = 1000 + i;
   run.sources = "code";
+  run.parts = {{"gate", reports::PartStatus::passed, 60, ""},
+               {"benchmarks", reports::PartStatus::skipped, 0, "no time"}};
   run.environment = reports::current_environment();
   run.environment.commit = "commit " + std::to_string(i);
   return run;
@@ -119,6 +121,12 @@ class ReportOfSixtyNights : public testing::Test {
 
   inline static HistoryRecord record_, of_tests_;
 };
+
+TEST_F(ReportOfSixtyNights, KeepsThePartsOfEachNight) {
+  ASSERT_EQ(record_.nights.front().parts.size(), 2u);
+  EXPECT_EQ(record_.nights.front().parts[1].name, "benchmarks");
+  EXPECT_EQ(record_.nights.front().skipped_parts, 1u);
+}
 
 TEST_F(ReportOfSixtyNights, FindsTheBiasThatNoNightShows) {
   const TrackedSequence& biased = sequence("biased");

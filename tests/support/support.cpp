@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/figures.h>
 #include <plumbline_tests/support.h>
 #include <stdlib.h>
 
@@ -99,6 +100,13 @@ void append_to_results(const verify::CheckResult& result) {
 }
 
 }  // namespace
+
+void publish(const reports::Figure& figure, const std::string& log) {
+  EXPECT_EQ(reports::parse_figure(reports::to_json(figure)).series.size(), figure.series.size());
+  const char* directory = std::getenv("PLUMBLINE_RESULTS");
+  if (directory == nullptr || *directory == '\0') return;
+  reports::ResultLog(directory, "figures_" + log).append(figure);
+}
 
 std::uint64_t run_seed() {
   const char* text = std::getenv("PLUMBLINE_SEED");
