@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -52,10 +55,34 @@ verify::Image exact(const std::vector<analytic::Colour>& pixels, const Channel& 
   return image;
 }
 
+constexpr double kTolerance = 0.005;  // of an image's mean
+
+/// Samples per pixel with which a right image is undecided less than once in 1e7. What a pass
+/// proves of the mean is its distance from the answer and 3.3 standard errors σ, and the distance
+/// exceeds 5.3 σ as seldom as that: 9 σ, with what the skewness guard adds, are to fit the
+/// tolerance.
+///
+/// @param pilot  of independent samples
+std::uint32_t samples_to_decide(const renderer::Film& pilot) {
+  constexpr double kDeviations = 9, kFewest = 512;
+  const double pixels = static_cast<double>(pilot.pixels().size());
+  double samples = kFewest;
+  for (const Channel& channel : kChannels) {
+    double variance = 0, mean = 0;
+    for (const renderer::PixelMoments& pixel : pilot.pixels()) {
+      variance += pixel.variance().*channel.rendered / pixels / pixels;
+      mean += pixel.mean.*channel.rendered / pixels;
+    }
+    const double tolerance = kTolerance * mean / kDeviations;
+    samples = std::max(samples, variance / (tolerance * tolerance));
+  }
+  return static_cast<std::uint32_t>(std::ceil(samples));
+}
+
 verify::ImageOptions options_for(const std::string& subject, verify::Verdict expected) {
   verify::ImageOptions options;
   options.subject = subject;
-  options.tolerance = 0.005;
+  options.tolerance = kTolerance;
   options.expected = expected;
   options.seed = check_seed(subject);
   return options;
@@ -64,7 +91,9 @@ verify::ImageOptions options_for(const std::string& subject, verify::Verdict exp
 class WholeImage : public testing::TestWithParam<std::string> {};
 
 TEST_P(WholeImage, EveryPixelIsTheClosedFormOverItsFootprint) {
-  const renderer::Film film = render_scene(GetParam(), 512, check_seed(GetParam() + "/image"));
+  const auto samples =
+      samples_to_decide(render_scene(GetParam(), 64, check_seed(GetParam() + "/pilot")));
+  const renderer::Film film = render_scene(GetParam(), samples, check_seed(GetParam() + "/image"));
   const std::vector<analytic::Colour> pixels = exact_pixels(GetParam());
   for (const Channel& channel : kChannels) {
     const auto options =
