@@ -98,7 +98,8 @@ TEST(Charts, StepAsFarAsIsAskedFor) {
     const Vec3 b = sum(d.chart().near(x, kFar, 0.3 + pi / 2), scaled(x, -1));
     EXPECT_LT(std::abs(dot(a, b)), 1e-3 * length(a) * length(b)) << d.name();
   }
-  const Chart& surface = paraboloid().chart();
+  const Domain domain = paraboloid();
+  const Chart& surface = domain.chart();
   const Vec3 moved = surface.near({0.5, 1, 0.25}, 0.1, pi / 6);
   EXPECT_NEAR(moved[0], 0.5 + 0.1 * std::sqrt(3) / 2, 1e-15);
   EXPECT_NEAR(moved[1], 2 * (0.5 + 0.05), 1e-15);
