@@ -35,7 +35,7 @@ def parts(directory):
     calibrate = (f"{build}/plumbline", "calibrate", "--seed", "{seed}", "--results", f"{build}/results/calibration")
     return (
         Part("gate", "the gate with seeds that nobody chose", tuple(gate(n) for n in (1, 2, 4, 8))),
-        Part("suites", "full grids and tighter tolerances, with one fresh seed", (Effort("all", 20, suites),)),
+        Part("suites", "full grids and tighter tolerances, with one fresh seed", (Effort("all", 35, suites),)),
         Part("benchmarks", "times, repeated; rays", (
             Effort("the one-minute set", 3, bench), Effort("full", 30, (*bench, "--full")))),
         Part("calibration", "levels, power and coverage of the checks", (
