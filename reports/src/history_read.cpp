@@ -62,29 +62,36 @@ verify::CheckResult read_check(const Statement& row) {
   return check;
 }
 
+/// What `read` makes of each row of a query whose one parameter is a run.
+template <class Read>
+auto rows_of_run(const SQLite::Database& database, const std::string& query, std::int64_t id,
+                 const Read& read) {
+  Statement rows(database, query);
+  rows.bind(1, id);
+  std::vector<decltype(read(rows))> found;
+  while (rows.executeStep()) found.push_back(read(rows));
+  return found;
+}
+
 /// With the run as a parameter, which may be any.
 std::vector<verify::CheckResult> read_checks(const SQLite::Database& database, std::int64_t id,
                                              const char* condition) {
-  Statement rows(database, std::string(kCheckColumns) + condition + " ORDER BY check_result.rowid");
-  rows.bind(1, id);
-  std::vector<verify::CheckResult> checks;
-  while (rows.executeStep()) checks.push_back(read_check(rows));
-  return checks;
+  return rows_of_run(database,
+                     std::string(kCheckColumns) + condition + " ORDER BY check_result.rowid", id,
+                     read_check);
 }
 
 void read_parts(const SQLite::Database& database, HistoryRun& run) {
-  Statement parts(database,
-                  "SELECT name, status, seconds, note FROM part WHERE run = ? ORDER BY rowid");
-  parts.bind(1, run.id);
-  while (parts.executeStep()) {
-    const auto status = part_status(parts.getColumn(1).getString());
-    run.parts.push_back({parts.getColumn(0).getString(), status.value_or(PartStatus::failed),
-                         parts.getColumn(2).getDouble(), parts.getColumn(3).getString()});
-  }
-  Statement seeds(database, "SELECT record FROM seed_run WHERE run = ? ORDER BY rowid");
-  seeds.bind(1, run.id);
-  while (seeds.executeStep())
-    run.seed_runs.push_back(parse_seed_run(seeds.getColumn(0).getString()));
+  run.parts = rows_of_run(
+      database, "SELECT name, status, seconds, note FROM part WHERE run = ? ORDER BY rowid", run.id,
+      [](const Statement& row) {
+        const auto status = part_status(row.getColumn(1).getString());
+        return HistoryPart{row.getColumn(0).getString(), status.value_or(PartStatus::failed),
+                           row.getColumn(2).getDouble(), row.getColumn(3).getString()};
+      });
+  run.seed_runs = rows_of_run(
+      database, "SELECT record FROM seed_run WHERE run = ? ORDER BY rowid", run.id,
+      [](const Statement& row) { return parse_seed_run(row.getColumn(0).getString()); });
 }
 
 constexpr const char* kRunColumns = "SELECT id, kind, sources, seed, environment FROM run";
@@ -188,15 +195,15 @@ std::vector<verify::CheckResult> History::unexpected_checks(std::int64_t id) con
 std::vector<Distribution> History::distributions(std::int64_t id) const {
   std::vector<Distribution> found;
   detail::ask(file_, [&] {
-    Statement rows(*database_,
-                   "SELECT name, unit, better, measured FROM distribution JOIN quantity ON "
-                   "quantity.id = quantity WHERE run = ? ORDER BY distribution.rowid");
-    rows.bind(1, id);
-    while (rows.executeStep()) {
-      found.push_back({rows.getColumn(0).getString(), rows.getColumn(1).getString(),
-                       rows.getColumn(2).getString() == "lower",
-                       numbers(rows.getColumn(3).getString())});
-    }
+    found = rows_of_run(*database_,
+                        "SELECT name, unit, better, measured FROM distribution JOIN quantity ON "
+                        "quantity.id = quantity WHERE run = ? ORDER BY distribution.rowid",
+                        id, [](const Statement& row) {
+                          return Distribution{row.getColumn(0).getString(),
+                                              row.getColumn(1).getString(),
+                                              row.getColumn(2).getString() == "lower",
+                                              numbers(row.getColumn(3).getString())};
+                        });
   });
   return found;
 }
@@ -204,14 +211,13 @@ std::vector<Distribution> History::distributions(std::int64_t id) const {
 std::vector<Counter> History::counters(std::int64_t id) const {
   std::vector<Counter> found;
   detail::ask(file_, [&] {
-    Statement rows(*database_,
-                   "SELECT name, unit, value FROM counter JOIN quantity ON quantity.id = quantity "
-                   "WHERE run = ? ORDER BY counter.rowid");
-    rows.bind(1, id);
-    while (rows.executeStep()) {
-      found.push_back({rows.getColumn(0).getString(), rows.getColumn(1).getString(),
-                       static_cast<std::uint64_t>(rows.getColumn(2).getInt64())});
-    }
+    found = rows_of_run(*database_,
+                        "SELECT name, unit, value FROM counter JOIN quantity ON quantity.id = "
+                        "quantity WHERE run = ? ORDER BY counter.rowid",
+                        id, [](const Statement& row) {
+                          return Counter{row.getColumn(0).getString(), row.getColumn(1).getString(),
+                                         static_cast<std::uint64_t>(row.getColumn(2).getInt64())};
+                        });
   });
   return found;
 }

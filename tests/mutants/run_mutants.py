@@ -9,6 +9,7 @@ build/mutants/results.jsonl, a line for each fault; a run that is repeated goes 
 import argparse
 import concurrent.futures
 import dataclasses
+import functools
 import hashlib
 import json
 import os
@@ -62,10 +63,15 @@ def known_equivalents():
     return {(e["file"], e["line"], e["fault"]) for e in json.loads(EQUIVALENT.read_text())}
 
 
+@functools.cache
+def lines_of(path):
+    return path.read_text().splitlines()
+
+
 def where(mutant):
     """The file of a fault and the text of its line: a line's number changes with what stands above it."""
     path = pathlib.Path(mutant.file)
-    return str(path.relative_to(tree.ROOT)), path.read_text().splitlines()[mutant.line - 1].strip()
+    return str(path.relative_to(tree.ROOT)), lines_of(path)[mutant.line - 1].strip()
 
 
 def mechanical_mutants(arguments, after, taken):

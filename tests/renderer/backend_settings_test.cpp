@@ -146,10 +146,8 @@ std::string where_to_look(const std::vector<SettingsRow>& rows,
   const Combination shared = shared_by(differing);
   if (shared.empty())
     return text + ": of every setting at least two values, so look at what all paths do";
-  const auto with = std::count_if(rows.begin(), rows.end(), [&](const SettingsRow& row) {
-    return std::all_of(shared.begin(), shared.end(),
-                       [&](const SettingValue& v) { return row[v.setting] == v.value; });
-  });
+  const auto with = std::count_if(rows.begin(), rows.end(),
+                                  [&](const SettingsRow& row) { return has(row, shared); });
   return text + ", all with " + words(shared) + "; of the " + std::to_string(with) +
          " rows with that the others agree";
 }

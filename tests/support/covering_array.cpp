@@ -34,11 +34,6 @@ void for_each_combination(const Settings& settings, std::size_t strength, Combin
   }
 }
 
-bool has(const SettingsRow& row, const Combination& combination) {
-  return std::all_of(combination.begin(), combination.end(),
-                     [&](const SettingValue& v) { return row[v.setting] == v.value; });
-}
-
 /// A row as it is filled in.
 class PartialRow {
  public:
@@ -101,6 +96,11 @@ class PartialRow {
 };
 
 }  // namespace
+
+bool has(const SettingsRow& row, const Combination& combination) {
+  return std::all_of(combination.begin(), combination.end(),
+                     [&](const SettingValue& v) { return row[v.setting] == v.value; });
+}
 
 std::vector<Combination> uncovered(const Settings& settings, std::size_t strength,
                                    const std::vector<SettingsRow>& rows) {

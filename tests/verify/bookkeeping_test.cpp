@@ -18,6 +18,7 @@
 #include <plumbline/verify/stochastic.h>
 
 #include "correct_pairs.h"
+#include "joint_pairs.h"
 #include "means/joint_agreement.h"
 
 /// What every result says of itself: its kind, its subject, its seed, that it took a time and how
@@ -43,19 +44,6 @@ SamplingPair root() {
   };
   pair.pdf = [](const Vec3& x) { return 2 * x[0]; };
   pair.inverse = [](const Vec3& x) -> Uniforms { return {x[0] * x[0], 0, 0}; };
-  return pair;
-}
-
-JointPair roots() {
-  JointPair pair{"roots", JointDomain::box({{0, 1}, {0, 1}})};
-  pair.numbers = 2;
-  pair.sample = [](const JointUniforms& u) -> std::optional<JointRecord> {
-    JointRecord record;
-    record.x[0][0] = std::sqrt(u[0]);
-    record.x[1][0] = std::sqrt(u[1]);
-    return record;
-  };
-  pair.pdf = [](const JointPoint& x) { return 4 * x[0][0] * x[1][0]; };
   return pair;
 }
 
@@ -140,10 +128,10 @@ std::vector<CheckResult> all_checks() {
   all.push_back(check_integral(root(), contract));
   all.push_back(check_chi_square(root(), contract));
   for (const CheckResult& r : check_pair(root(), contract)) all.push_back(r);
-  all.push_back(check_jacobian(roots(), contract));
-  all.push_back(check_integral(roots(), contract));
-  all.push_back(check_chi_square(roots(), contract));
-  for (const CheckResult& r : check_pair(roots(), contract)) all.push_back(r);
+  all.push_back(check_jacobian(joint_pairs::roots(), contract));
+  all.push_back(check_integral(joint_pairs::roots(), contract));
+  all.push_back(check_chi_square(joint_pairs::roots(), contract));
+  for (const CheckResult& r : check_pair(joint_pairs::roots(), contract)) all.push_back(r);
   all.push_back(check_stratified(diagonal(), seeded<StratifiedOptions>()));
   all.push_back(check_net(diagonal(), seeded<NetOptions>()));
   all.push_back(check_replicates(diagonal(), seeded<ReplicateOptions>()));

@@ -19,6 +19,7 @@
 #include "bsdfs/bsdf_checks.h"
 #include "correct_pairs.h"
 #include "dependent/point_sets.h"
+#include "joint_pairs.h"
 #include "lattice.h"
 #include "pairs/batches.h"
 #include "pairs/battery.h"
@@ -107,15 +108,8 @@ TEST(Integral, HasABoundOfItsErrorAndWhatIsUnknown) {
 }
 
 TEST(JointIntegral, IsHeldToTheToleranceThatIsStated) {
-  JointPair pair{"ramps", JointDomain::box({{0, 1}, {0, 1}})};
-  pair.numbers = 2;
+  JointPair pair = joint_pairs::roots();
   pair.epsilon = 0x1p-24;
-  pair.sample = [](const JointUniforms& u) -> std::optional<JointRecord> {
-    JointRecord record;
-    record.x[0][0] = std::sqrt(u[0]);
-    record.x[1][0] = std::sqrt(u[1]);
-    return record;
-  };
   pair.pdf = [](const JointPoint& x) { return 4.03 * x[0][0] * x[1][0]; };
   ContractOptions o = quick();
   o.mass_tolerance = 0.02;

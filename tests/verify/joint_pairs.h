@@ -304,4 +304,18 @@ inline JointPair shifted(Fault fault = Fault::none) {
   return pair;
 }
 
+/// The roots of two numbers: a density of 4 x y in the unit square.
+inline JointPair roots() {
+  JointPair pair{"roots", JointDomain::box({{0, 1}, {0, 1}})};
+  pair.numbers = 2;
+  pair.sample = [](const JointUniforms& u) -> std::optional<JointRecord> {
+    JointRecord record;
+    record.x[0][0] = std::sqrt(u[0]);
+    record.x[1][0] = std::sqrt(u[1]);
+    return record;
+  };
+  pair.pdf = [](const JointPoint& x) { return 4 * x[0][0] * x[1][0]; };
+  return pair;
+}
+
 }  // namespace plumbline::verify::joint_pairs

@@ -40,6 +40,9 @@ std::vector<Combination> uncovered(const Settings& settings, std::size_t strengt
 /// @source Cohen, Dalal, Fredman, Patton 1997 (IEEE TSE 23:7), Section 3, with one candidate row
 std::vector<SettingsRow> covering_array(const Settings& settings, std::size_t strength);
 
+/// Whether a row has all of these values.
+bool has(const SettingsRow& row, const Combination& combination);
+
 /// The values that all rows have in common: of rows that fail, what to look at first. All values of
 /// a single row, none of no rows.
 Combination shared_by(const std::vector<SettingsRow>& rows);
