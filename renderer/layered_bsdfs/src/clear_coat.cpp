@@ -26,7 +26,7 @@ double ClearCoat::integrate_albedo(double cosine) const {
 /// in the intervals beside it, so that no more is given to the base than the coat leaves.
 void ClearCoat::tabulate() {
   const auto albedo_at = [this](double node) {
-    return integrate_albedo(std::max(sqr(node / (kNodes - 1)), 1e-6));
+    return integrate_albedo(std::max(sqr(sqr(node / (kNodes - 1))), 1e-6));
   };
   std::array<float, kNodes> nodes{};
   for (std::size_t i = 0; i < kNodes; ++i) {

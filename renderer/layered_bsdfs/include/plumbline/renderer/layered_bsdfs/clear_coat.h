@@ -132,10 +132,11 @@ class ClearCoat {
                      : square_to_cosine_hemisphere(Vec2<T>{u.y, u.x});
   }
 
-  /// At a cosine, between nodes that are equally spaced in its root: E is steep at grazing.
+  /// At a cosine, between nodes that are equally spaced in its fourth root: E is steep at grazing,
+  /// and bends where the cosine is of the size of the roughness, down to 1e-4.
   template <class T>
   [[gnu::always_inline]] CoatAt<T> coat_at(const T& cosine) const {
-    const T place = safe_sqrt(cosine) * T(kNodes - 1);
+    const T place = safe_sqrt(safe_sqrt(cosine)) * T(kNodes - 1);
     const int below = std::min(static_cast<int>(place), kNodes - 2);
     const auto node = static_cast<std::size_t>(below);
     const T part = place - T(below);
