@@ -248,5 +248,35 @@ TEST(Agreement, InconclusiveWhereATailDecides) {
       check_agreement(o, sampler(o.seed, Exponential{}), sampler(o.seed + 1, Pareto{1.5})));
 }
 
+/// About 1 with a spread of 0.0015, and rejected once in 5,000 times: what metal loses below the
+/// horizon. Until the first rejection the others agree on too much.
+struct SeldomRejected {
+  double operator()(Random& random) const {
+    if (random.uniform() < 2e-4) return 0;
+    return 1 + 0.0015 * (random.uniform() + random.uniform() + random.uniform() - 1.5) * 2;
+  }
+};
+
+CheckResult seldom_rejected(std::uint64_t seed, double reference) {
+  MeanOptions options;
+  options.subject = "seldom rejected";
+  options.reference = reference;
+  options.tolerance = 0.005;
+  return check_mean(options, tests::sampler(seed, SeldomRejected{}));
+}
+
+TEST(MeanCheck, ARejectionThatHasNotBeenSeenIsNoDifference) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed)
+    EXPECT_EQ(seldom_rejected(seed, 1 - 2e-4).verdict, Verdict::pass) << seed;
+}
+
+TEST(MeanCheck, OneThatIsTooCommonToBeUnseenStillIs) {
+  // Three in a thousand that the answer holds and no sample shows, and one in a hundred.
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    EXPECT_NE(seldom_rejected(seed, 0.9897).verdict, Verdict::pass) << seed;
+    EXPECT_EQ(seldom_rejected(seed, 0.9798).verdict, Verdict::fail) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::verify

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -74,6 +75,28 @@ TEST(Moments, TailIndexTellsFiniteFromInfiniteVariance) {
   EXPECT_GT(draw(3, 1'000'000, Pareto{3.0}).tail_index(), 2);
   EXPECT_GT(draw(4, 1'000'000, Exponential{}).tail_index(), 3);
   EXPECT_GT(draw(5, 1'000'000, tests::Bernoulli{1e-4}).tail_index(), 3);
+}
+
+TEST(Moments, InfiniteVarianceSeldomLooksFinite) {
+  // Two standard errors once and three a few times: about one in forty at the limit itself.
+  int finite = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed)
+    finite += draw(seed, 200'000, Pareto{2.0}).tail_index() > 2 ? 1 : 0;
+  EXPECT_LE(finite, 20);
+}
+
+/// Falls off with index 0.7 up to where it ends, as the values of a narrow lobe do.
+struct SlowUpToAnEnd {
+  double end;
+  double operator()(Random& random) const {
+    return std::min(end, std::pow(1 - random.uniform(), -1 / 0.7));
+  }
+};
+
+TEST(Moments, ATailThatFallsOffSlowlyAndEndsIsBounded) {
+  // A thousandth of the samples lies beyond 2e4, 90 of a million beyond 6e5.
+  EXPECT_GT(draw(1, 1'000'000, SlowUpToAnEnd{6e5}).tail_index(), 2);
+  EXPECT_LT(draw(2, 1'000'000, SlowUpToAnEnd{6e8}).tail_index(), 2);  // too few there to see it
 }
 
 }  // namespace

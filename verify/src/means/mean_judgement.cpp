@@ -102,10 +102,20 @@ std::string exact_variance_doubt(const Evidence& estimated, const Evidence& exac
          "variance is wrong";
 }
 
-/// Equal samples c: what none of n samples showed has a probability of at most ln(1/level)/n, and
-/// is taken to deviate from c by no more than |c|. That bounds the bias that may hide.
+/// What none of n samples about c showed has a probability of at most ln(1/level)/n, and is taken
+/// to deviate from c by no more than |c|, as a rejected sample does. That bounds the bias that may
+/// hide.
 double hidden_bias(double value, std::uint64_t n, double level) {
   return std::abs(value) * std::log(1 / level) / static_cast<double>(n);
+}
+
+/// What a difference must exceed to be one, besides its noise: samples that nearly agree say
+/// nothing of one in thousands that is rejected and has not been seen, which noise of theirs does
+/// not hold. An exact variance holds it; where single samples are not known there is nothing to
+/// say.
+double unseen(const MeanQuestion& q, const Evidence& e, std::uint64_t n, double level) {
+  if (knows_variance(q) || std::isnan(e.smallest)) return 0;
+  return hidden_bias(e.estimate, n, level);
 }
 
 void judge_zeros(const MeanQuestion& q, const Evidence& e, CheckResult& r) {
@@ -187,7 +197,7 @@ void judge_nearly_constant(const MeanQuestion& q, const Evidence& e, CheckResult
 double detectable_bias(const MeanQuestion& q, const Evidence& e) {
   const double at_cap = e.standard_error * std::sqrt(static_cast<double>(e.samples) /
                                                      static_cast<double>(q.max_samples));
-  const double seen = q.rounding_allowance +
+  const double seen = q.rounding_allowance + unseen(q, e, q.max_samples, q.last_fail_level) +
                       (normal_quantile(q.last_fail_level / 2) + normal_quantile(0.009)) * at_cap;
   return std::max(q.tolerance, seen);
 }
@@ -197,14 +207,14 @@ void judge_difference(const MeanQuestion& q, const Evidence& e, const std::strin
   const Interval pass = mean_interval(e, q.pass_level);
   const Interval fail = mean_interval(e, q.fail_level / 2);
   const double bound = std::max(pass.high - q.reference, q.reference - pass.low);
+  const double no_difference = q.rounding_allowance + unseen(q, e, e.samples, q.fail_level);
   r.interval = pass;
   r.bound = bound;
   r.p_value = mean_p_value(e, q.reference);
   r.detectable = detectable_bias(q, e);
   if (!doubt.empty()) {
     r.reason = doubt;
-  } else if (fail.low > q.reference + q.rounding_allowance ||
-             fail.high < q.reference - q.rounding_allowance) {
+  } else if (fail.low > q.reference + no_difference || fail.high < q.reference - no_difference) {
     r.verdict = Verdict::fail;
     r.reason = "estimate " + number(e.estimate) + " is " +
                number(std::abs(e.estimate - q.reference) / e.standard_error) +

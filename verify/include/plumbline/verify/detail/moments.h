@@ -54,8 +54,9 @@ class Moments {
   double largest_share() const;
 
   /// Lower confidence limit (two standard errors) of the tail index a: P(|x| > t) falls like t^-a
-  /// among the largest samples. At or below 2 the variance looks infinite. +infinity where the tail
-  /// is bounded, or where fewer than 100,000 samples say too little.
+  /// among the largest samples, the thousandth of them or, where those fall off faster (three
+  /// standard errors), the largest 64 or more. At or below 2 the variance looks infinite. +infinity
+  /// where the tail is bounded, or where fewer than 100,000 samples say too little.
   double tail_index() const;
 
  private:
