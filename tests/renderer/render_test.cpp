@@ -6,10 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <set>
 #include <thread>
+#include <vector>
 
 #include "scenes.h"
 
@@ -54,6 +56,40 @@ TEST(Render, AnotherSeedGivesAnotherImage) {
   const RenderResult one = render(scene, options);
   options.seed = 8;
   EXPECT_FALSE(same_bits(one.film, render(scene, options).film));
+}
+
+/// 24×16 pixels that all see one point of a wall, lit by a small sphere: what differs between them
+/// are their random numbers alone.
+SceneDescription one_point_seen_by_all() {
+  SceneDescription scene = tests::empty_scene(24, 16);
+  scene.camera.tan_half_fov_x = 1e-9;
+  scene.shapes.push_back({SphereShape{{0, 0, 0}, 1, true}, 0, {}});
+  scene.shapes.push_back({SphereShape{{0, 0.5, 0.5}, 0.3, false}, 0, Rgbd{1, 1, 1}});
+  return scene;
+}
+
+TEST(RandomNumbers, AreNoTwoPixelsAlike) {
+  const Scene scene = make_scene(one_point_seen_by_all());
+  for (const SamplerType sampler : {SamplerType::independent, SamplerType::sobol}) {
+    for (const Backend backend : kBackends) {
+      RenderOptions options = options_for(Strategy::light);
+      options.path.max_depth = 2;
+      options.samples_per_pixel = 1;
+      options.sampler = sampler;
+      options.backend = backend;
+      const RenderResult result = render(scene, options);
+      std::vector<double> values;
+      for (const PixelMoments& pixel : result.film.pixels()) values.push_back(pixel.mean.r);
+      std::sort(values.begin(), values.end());
+      EXPECT_GT(values.back() - values.front(), 0.1 * values.back()) << "all pixels are alike";
+      int alike = 0;
+      for (std::size_t i = 1; i < values.size(); ++i)
+        alike += values[i] - values[i - 1] < 1e-6 * values[i] ? 1 : 0;
+      // By chance 384²/2 · 1e-6/0.1 pairs, or fewer.
+      EXPECT_LE(alike, 8) << "random numbers of the " << name(sampler)
+                          << " sampler come again in other pixels; " << name(backend);
+    }
+  }
 }
 
 /// A limit that no machine reaches ends nothing, and one that has passed ends all after the first
