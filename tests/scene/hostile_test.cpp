@@ -122,16 +122,38 @@ TEST(HostileFile, UndeclaredEntityIsNotExpanded) {
             "rectangle, disk, obj");
 }
 
-TEST(HostileFile, OfParametersThatDoubleIsRefused) {
+/// <default>s, each `factor` times the one before: a bomb of a few hundred bytes.
+std::string multiplying(int factor, int lines) {
   std::string body = "<default name=\"p0\" value=\"billions\"/>\n";
-  for (int i = 1; i < 40; ++i) {
-    const std::string before = "$p" + std::to_string(i - 1);
-    body += "<default name=\"p" + std::to_string(i) + "\" value=\"" + before + before + "\"/>\n";
+  for (int i = 1; i < lines; ++i) {
+    body += "<default name=\"p" + std::to_string(i) + "\" value=\"" +
+            repeated("$p" + std::to_string(i - 1), factor) + "\"/>\n";
   }
-  EXPECT_EQ(
-      refusal_of_text(scene_with(body)),
-      "scene.xml:24: <default name=\"p21\">: parameters have put in more than 16777216 bytes up "
-      "to here");
+  return body;
+}
+
+TEST(HostileFile, OfParametersThatMultiplyIsRefusedBeforeAValueGrowsLarge) {
+  // 8·2^13 = 65,536 bytes are the most; 8·10^4 are more.
+  EXPECT_EQ(refusal_of_text(scene_with(multiplying(2, 40))),
+            "scene.xml:17: <default name=\"p14\">: $p13 makes the value longer than 65536 bytes");
+  EXPECT_EQ(refusal_of_text(scene_with(multiplying(10, 13))),
+            "scene.xml:7: <default name=\"p4\">: $p3 makes the value longer than 65536 bytes");
+}
+
+TEST(HostileFile, OfALargeParameterUsedOftenIsRefusedBeforeAllOfItIsPutIn) {
+  // 64 KiB each, and nearly as much again twice for declaring it: the 255th exceeds 16 MiB.
+  const std::string use = "<shape type=\"sphere\" name=\"$p13\"/>\n";
+  EXPECT_EQ(refusal_of_text(scene_with(multiplying(2, 14) + repeated(use, 300))),
+            "scene.xml:271: <shape name=\"$p13\">: parameters have put in more than 16777216 bytes "
+            "up to here");
+}
+
+TEST(HostileFile, OfParametersThatNameThemselvesIsRefused) {
+  EXPECT_EQ(refusal_of_text(scene_with("<default name=\"a\" value=\"$a\"/>")),
+            "scene.xml:3: <default name=\"a\">: no <default> before this line declares $a");
+  EXPECT_EQ(refusal_of_text(scene_with("<default name=\"a\" value=\"$b\"/>"
+                                       "<default name=\"b\" value=\"$a\"/>")),
+            "scene.xml:3: <default name=\"a\">: no <default> before this line declares $b");
 }
 
 TEST(HostileFile, CutAnywhereNeverCrashes) {

@@ -10,6 +10,10 @@ namespace {
 /// Bytes of a scene file, and of the parameters put into one.
 constexpr std::size_t kMaxSceneBytes = std::size_t{16} << 20;
 
+/// Bytes of a value that parameters were put into: a matrix has a few hundred, a path 4096 at most.
+/// Parameters of parameters multiply with every line, so each value is held to it before it grows.
+constexpr std::size_t kMaxValueBytes = std::size_t{64} << 10;
+
 /// Of the names of parameters.
 constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
@@ -82,7 +86,10 @@ std::string with_parameters(Node node, std::string_view text, Reading& in) {
     }
     in.overrides.erase(name);
     in.put_in += found->second.size();
-    if (in.put_in > kMaxSceneBytes) {  // parameters of parameters double with every line
+    if (result.size() + found->second.size() > kMaxValueBytes) {
+      fail(node, "${} makes the value longer than {} bytes", name, kMaxValueBytes);
+    }
+    if (in.put_in > kMaxSceneBytes) {
       fail(node, "parameters have put in more than {} bytes up to here", kMaxSceneBytes);
     }
     text.remove_prefix(name.size());
