@@ -13,6 +13,7 @@
 #include <plumbline/analytic/known_scene.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
+#include <plumbline/reports/budgets.h>
 #include <plumbline/reports/page.h>
 #include <plumbline/verify/detail/budget.h>
 
@@ -40,12 +41,24 @@ reports::PageImage picture(const reports::RenderRecord& record) {
   return result;
 }
 
+/// @throws renderer::BudgetError for a picture that claims more than it can hold, or for more
+///         pixels than a page may show
 std::vector<reports::PageImage> pictures(reports::Results& results) {
   std::vector<reports::PageImage> images;
+  std::uint64_t pixels = 0;
   for (const reports::RenderRecord& record : results.renders) {
     if (record.image.empty()) continue;
     try {
       images.push_back(picture(record));
+      pixels += images.back().rgb.size() / 3;
+      if (pixels > reports::kMaxPagePixels) {
+        throw renderer::BudgetError(
+            fmt::format("{}: with it the page has more than {} pixels in its pictures: render "
+                        "smaller ones, or remove some records",
+                        record.image.string(), reports::kMaxPagePixels));
+      }
+    } catch (const renderer::BudgetError&) {
+      throw;
     } catch (const renderer::InputError& error) {
       results.warnings.push_back({record.image, 0, error.what()});
     }

@@ -8,6 +8,9 @@
 #include <iterator>
 #include <system_error>
 
+#include <plumbline/reports/budgets.h>
+#include <plumbline/reports/errors.h>
+
 namespace plumbline::reports::detail {
 namespace {
 
@@ -50,7 +53,17 @@ std::string read_file(const std::filesystem::path& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw_errno(path);
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::error_code ignored;  // pipes have no size
+  const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+  if (!ignored && bytes > kMaxResultsFileBytes) {
+    throw BudgetError("has " + std::to_string(bytes) + " bytes, more than the " +
+                      std::to_string(kMaxResultsFileBytes) +
+                      " that a file of results may have: split it, or remove it");
+  }
+  std::string text(ignored ? 0 : static_cast<std::size_t>(bytes), '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  text.append(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   if (file.bad()) throw_errno(path);
   return text;
 }

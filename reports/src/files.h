@@ -11,7 +11,8 @@ namespace plumbline::reports::detail {
 /// @throws std::system_error naming the path
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 
-/// @throws std::system_error naming the path
+/// @throws std::system_error naming the path; BudgetError for a file larger than budgets.h says,
+///         before it is read
 std::string read_file(const std::filesystem::path& path);
 
 }  // namespace plumbline::reports::detail

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <plumbline/reports/budgets.h>
 #include <plumbline/reports/errors.h>
 
 namespace plumbline::reports::detail {
@@ -13,7 +14,11 @@ namespace {
 
 using Library = nlohmann::json;
 
-constexpr std::size_t kDeepest = 100;  // values are written by recursion
+void keep_within(std::size_t most, std::size_t count, const char* of_what) {
+  if (count <= most) return;
+  throw BudgetError("a record of more than " + std::to_string(most) + " " + of_what +
+                    ": remove it, or what is not of Plumbline from the directory");
+}
 
 /// A leaf as the library writes it.
 template <class T>
@@ -38,6 +43,7 @@ class Builder : public Library::json_sax_t {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(std::string& name) override {
+    keep_within(kMaxMembers, open_.back()->members().size() + 1, "members in one object");
     name_ = std::move(name);
     return true;
   }
@@ -56,6 +62,7 @@ class Builder : public Library::json_sax_t {
   }
 
   Json& place(Json value) {
+    keep_within(kMaxRecordValues, ++values_, "values");
     if (open_.empty()) return root_ = std::move(value);
     Json& parent = *open_.back();
     if (parent.is_object()) return parent[name_] = std::move(value);
@@ -64,7 +71,7 @@ class Builder : public Library::json_sax_t {
   }
 
   bool open(Json container) {
-    if (open_.size() == kDeepest) throw FormatError("JSON that is nested too deeply");
+    keep_within(kMaxJsonNesting, open_.size() + 1, "levels");
     open_.push_back(&place(std::move(container)));
     return true;
   }
@@ -77,6 +84,7 @@ class Builder : public Library::json_sax_t {
   Json& root_;
   std::vector<Json*> open_;  // each the last of the one before, which does not move meanwhile
   std::string name_;
+  std::size_t values_ = 0;
 };
 
 }  // namespace
@@ -100,6 +108,7 @@ Json Json::object(std::initializer_list<Member> members) {
 }
 
 Json Json::parse(std::string_view text) {
+  keep_within(kMaxRecordBytes, text.size(), "bytes");
   Json json;
   Builder builder(json);
   Library::sax_parse(text, &builder);

@@ -38,7 +38,8 @@ class Json {
   Json& operator=(Json&& other) noexcept;
   ~Json();
 
-  /// @throws FormatError for a text that is not JSON, or nested deeper than a hundred times
+  /// @throws FormatError for a text that is not JSON; BudgetError for one that is longer, or has
+  ///         more in it, than budgets.h says
   static Json parse(std::string_view text);
 
   /// On one line. Text that is not UTF-8 gets replacement characters; what is not finite is null.

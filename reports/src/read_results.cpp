@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include <plumbline/reports/budgets.h>
 #include <plumbline/reports/results.h>
 
 #include "files.h"
@@ -78,7 +79,15 @@ void add_document(Results& results, const std::string& text, const fs::path& dir
   }
 }
 
-void read_lines(Results& results, const fs::path& file, const std::string& text) {
+/// What is larger than any result is not passed over with a warning: it may be all that there is.
+[[noreturn]] void refuse(const fs::path& file, std::size_t line, const BudgetError& error) {
+  const std::string where = line == 0 ? "" : ":" + std::to_string(line);
+  throw ResultsError(file.string() + where + ": " + error.what());
+}
+
+/// @param records  how many have been read, in other files too
+void read_lines(Results& results, const fs::path& file, const std::string& text,
+                std::size_t& records) {
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
@@ -87,7 +96,12 @@ void read_lines(Results& results, const fs::path& file, const std::string& text)
     begin = end + 1;
     if (line.empty()) continue;
     try {
+      if (++records > kMaxRecords) {
+        throw BudgetError("more than " + std::to_string(kMaxRecords) + " records: split them");
+      }
       add_document(results, line, file.parent_path());
+    } catch (const BudgetError& error) {
+      refuse(file, number, error);
     } catch (const FormatError& error) {
       results.warnings.push_back({file, number, error.what()});
     }
@@ -99,6 +113,8 @@ void read_single(Results& results, const fs::path& file, const std::string& text
   try {
     if (detail::format_of(Json::parse(text)).empty()) return;
     add_document(results, text, file.parent_path());
+  } catch (const BudgetError&) {
+    throw;
   } catch (const FormatError& error) {
     results.warnings.push_back({file, 0, error.what()});
   }
@@ -123,14 +139,17 @@ Results read_results(const fs::path& directory) {
     throw ResultsError(directory.string() + ": not a directory");
   }
   Results results;
+  std::size_t records = 0;
   for (const fs::path& file : record_files(directory)) {
     try {
       const std::string text = detail::read_file(file);
       if (file.extension() == ".jsonl") {
-        read_lines(results, file, text);
+        read_lines(results, file, text, records);
       } else {
         read_single(results, file, text);
       }
+    } catch (const BudgetError& error) {
+      refuse(file, 0, error);
     } catch (const std::system_error& error) {
       results.warnings.push_back({file, 0, error.what()});
     }

@@ -1,6 +1,5 @@
 #include <plumbline/renderer/image_io/exr.h>
 
-#include <ImfArray.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -8,18 +7,18 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
-#include <ImfThreading.h>
 #include <unistd.h>
 
-#include <cmath>
+#include <algorithm>
 #include <fstream>
+#include <new>
 #include <system_error>
 #include <utility>
 
+#include <plumbline/renderer/core/budgets.h>
+
 namespace plumbline::renderer {
 namespace {
-
-constexpr int kMaxSide = 1 << 16;  // a header may claim anything; memory is only taken below this
 
 /// OpenEXR swallows write errors in its destructor, where the line table is written. This stream
 /// remembers them.
@@ -49,16 +48,22 @@ constexpr const char* kCount = "count";
 
 /// Describes one channel of a full-width buffer to OpenEXR, which wants the address of pixel (0, 0)
 /// and mutable bytes even for output.
-Imf::Slice slice(const float* first, std::size_t stride, int width) {
-  char* base = const_cast<char*>(reinterpret_cast<const char*>(first));
-  return Imf::Slice(Imf::FLOAT, base, stride, stride * static_cast<std::size_t>(width));
+///
+/// @param corner  of the window's first pixel: y·width + x
+Imf::Slice slice(const float* first, std::size_t stride, int width, std::ptrdiff_t corner = 0) {
+  const auto* bytes = reinterpret_cast<const char*>(first);
+  return Imf::Slice(Imf::FLOAT,
+                    const_cast<char*>(bytes) - corner * static_cast<std::ptrdiff_t>(stride), stride,
+                    stride * static_cast<std::size_t>(width));
 }
 
 void insert_rgb(Imf::FrameBuffer& buffer, const char* const (&names)[3],
-                const std::vector<Rgbf>& pixels, int width) {
+                const std::vector<Rgbf>& pixels, int width, std::ptrdiff_t corner = 0) {
   const Rgbf& first = pixels.front();
   const float* channels[] = {&first.r, &first.g, &first.b};
-  for (int i = 0; i < 3; ++i) buffer.insert(names[i], slice(channels[i], sizeof(Rgbf), width));
+  for (int i = 0; i < 3; ++i) {
+    buffer.insert(names[i], slice(channels[i], sizeof(Rgbf), width, corner));
+  }
 }
 
 Imf::Header header_of(const Image& image) {
@@ -111,43 +116,47 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
+/// Room for more pixels, by at least as much as there is: in step with what has been decoded, for
+/// a file may claim what it does not hold.
+template <class T>
+void grow(std::vector<T>& values, std::size_t size, std::size_t whole) {
+  if (values.capacity() < size) values.reserve(std::min(whole, std::max(size, 2 * values.size())));
+  values.resize(size);
+}
+
 void read_channels(Imf::InputFile& file, Image& image) {
   const Imf::ChannelList& channels = file.header().channels();
   const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
   const bool is_rgb = has("R") && has("G") && has("B");
   if (!is_rgb && !has("Y")) throw InputError("has neither the channels R, G, B nor Y");
+  const bool has_variance = has(kVariance[0]) && has(kVariance[1]) && has(kVariance[2]);
 
-  const auto size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  image.pixels.resize(size);
-  Imf::FrameBuffer buffer;
+  const auto width = static_cast<std::size_t>(image.width);
+  const auto whole = width * static_cast<std::size_t>(image.height);
   const Imath::Box2i window = file.header().dataWindow();
-  // OpenEXR addresses pixels by their window coordinates: shift the base so that the window's
-  // corner is the first element.
   const auto corner = static_cast<std::ptrdiff_t>(window.min.y) * image.width + window.min.x;
-  const auto insert = [&](const char* name, float* first, std::size_t stride) {
-    buffer.insert(name, slice(first - corner * static_cast<std::ptrdiff_t>(stride / sizeof(float)),
-                              stride, image.width));
-  };
-  const auto insert_color = [&](const char* const(&names)[3], std::vector<Rgbf>& pixels) {
-    insert(names[0], &pixels.front().r, sizeof(Rgbf));
-    insert(names[1], &pixels.front().g, sizeof(Rgbf));
-    insert(names[2], &pixels.front().b, sizeof(Rgbf));
-  };
-  if (is_rgb) {
-    insert_color(kColor, image.pixels);
-  } else {
-    insert("Y", &image.pixels.front().r, sizeof(Rgbf));
+  const int strip = static_cast<int>(std::max(kExrStripPixels / image.width, std::int64_t{1}));
+  Imf::FrameBuffer buffer;
+  for (int done = 0, end = 0; done < image.height; done = end) {
+    end = std::min(done + strip, image.height);
+    const std::size_t size = width * static_cast<std::size_t>(end);
+    grow(image.pixels, size, whole);
+    if (is_rgb) {
+      insert_rgb(buffer, kColor, image.pixels, image.width, corner);
+    } else {
+      buffer.insert("Y", slice(&image.pixels.front().r, sizeof(Rgbf), image.width, corner));
+    }
+    if (has_variance) {
+      grow(image.variance, size, whole);
+      insert_rgb(buffer, kVariance, image.variance, image.width, corner);
+    }
+    if (has(kCount)) {
+      grow(image.count, size, whole);
+      buffer.insert(kCount, slice(image.count.data(), sizeof(float), image.width, corner));
+    }
+    file.setFrameBuffer(buffer);
+    file.readPixels(window.min.y + done, window.min.y + end - 1);
   }
-  if (has(kVariance[0]) && has(kVariance[1]) && has(kVariance[2])) {
-    image.variance.resize(size);
-    insert_color(kVariance, image.variance);
-  }
-  if (has(kCount)) {
-    image.count.resize(size);
-    insert(kCount, image.count.data(), sizeof(float));
-  }
-  file.setFrameBuffer(buffer);
-  file.readPixels(window.min.y, window.max.y);
   if (!is_rgb) {
     for (Rgbf& pixel : image.pixels) pixel = {pixel.r, pixel.r, pixel.r};
   }
@@ -189,14 +198,10 @@ Image read_exr(const std::filesystem::path& path) {
     throw InputError(path.string() + ": no such image");
   }
   try {
+    check_exr_claims(path);
     Imf::InputFile file(path.c_str());
     const Imath::Box2i window = file.header().dataWindow();
-    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-    if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
-      throw InputError("has an unreasonable size");
-    }
-    Image image{static_cast<int>(width), static_cast<int>(height), {}, {}, {}, {}};
+    Image image{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}, {}, {}, {}};
     read_channels(file, image);
     for (auto it = file.header().begin(); it != file.header().end(); ++it) {
       if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute())) {
@@ -204,6 +209,10 @@ Image read_exr(const std::filesystem::path& path) {
       }
     }
     return image;
+  } catch (const BudgetError& error) {
+    throw BudgetError(path.string() + ": " + error.what());
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw InputError(path.string() + ": " + error.what());
   }

@@ -7,13 +7,6 @@
 namespace plumbline::renderer {
 namespace {
 
-/// Bytes of a scene file, and of the parameters put into one.
-constexpr std::size_t kMaxSceneBytes = std::size_t{16} << 20;
-
-/// Bytes of a value that parameters were put into: a matrix has a few hundred, a path 4096 at most.
-/// Parameters of parameters multiply with every line, so each value is held to it before it grows.
-constexpr std::size_t kMaxValueBytes = std::size_t{64} << 10;
-
 /// Of the names of parameters.
 constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
@@ -32,11 +25,10 @@ void check_kind(Node node) {
 }
 
 void check_attributes(Node node) {
-  constexpr int kMaxAttributes = 32;
   int count = 0;
   for (const pugi::xml_attribute attribute : node.attributes()) {
-    if (++count > kMaxAttributes) {
-      refuse(node, "an element has more than {} attributes", kMaxAttributes);
+    if (++count > kMaxElementAttributes) {
+      refuse(node, "an element has more than {} attributes", kMaxElementAttributes);
     }
     if (node.attribute(attribute.name()) != attribute) {  // which is the first of that name
       refuse(node, "attribute {} is given twice", in_quotes(attribute.name()));
@@ -45,11 +37,12 @@ void check_attributes(Node node) {
 }
 
 void check_children(Node parent, int depth) {
-  constexpr int kMaxNesting = 32;
   for (const Node node : parent.children()) {
     check_kind(node);
     if (depth == 0 && node.previous_sibling()) refuse(node, "a file holds one <scene> only");
-    if (depth == kMaxNesting) refuse(node, "elements are nested deeper than {}", kMaxNesting);
+    if (depth == kMaxElementNesting) {
+      refuse(node, "elements are nested deeper than {}", kMaxElementNesting);
+    }
     check_attributes(node);
     check_children(node, depth + 1);
   }

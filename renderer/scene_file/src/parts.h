@@ -6,6 +6,7 @@
 
 #include <plumbline/renderer/assembly/bsdf.h>
 #include <plumbline/renderer/assembly/description.h>
+#include <plumbline/renderer/core/budgets.h>
 
 #include "object.h"
 

@@ -198,10 +198,9 @@ const Named<ObjectType> kBsdfTypes = {
 };
 
 std::uint32_t read_bsdf(Node node, Reading& in) {
-  constexpr int kMaxNesting = 8;  // a mixture of mixtures asks 2^depth BSDFs for every answer
   read_object(node, kBsdfTypes, in);
-  if (in.contexts.back().depth > kMaxNesting) {
-    refuse(node, "BSDFs are nested deeper than {}", kMaxNesting);
+  if (in.contexts.back().depth > kMaxBsdfNesting) {
+    refuse(node, "BSDFs are nested deeper than {}", kMaxBsdfNesting);
   }
   const auto index = static_cast<std::uint32_t>(in.contexts.size() - 1);
   if (node.attribute("id")) in.bsdfs_by_id.emplace(attribute(node, "id"), index);

@@ -7,8 +7,6 @@
 namespace plumbline::renderer {
 namespace {
 
-constexpr std::size_t kMaxMeshBytes = std::size_t{512} << 20;
-constexpr std::size_t kMaxCorners = 255;  // what readers hold that count them in a byte
 constexpr std::string_view kSpace = " \t";
 const std::vector<std::string> kReadOver = {"o", "g", "s", "usemtl", "mtllib"};
 
@@ -79,8 +77,8 @@ std::vector<std::uint32_t> read_corners(const Line& line, const Counts& counts) 
   for (std::size_t i = 1; i < line.words.size(); ++i) {
     corners.push_back(read_corner(line, line.words[i], counts));
   }
-  if (corners.size() < 3 || corners.size() > kMaxCorners) {
-    refuse(line.at, "a face has 3 to {} vertices, not {}", kMaxCorners, corners.size());
+  if (corners.size() < 3 || corners.size() > kMaxFaceCorners) {
+    refuse(line.at, "a face has 3 to {} vertices, not {}", kMaxFaceCorners, corners.size());
   }
   return corners;
 }

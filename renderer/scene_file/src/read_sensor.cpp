@@ -87,14 +87,12 @@ const Named<ObjectType> kFilterTypes = {
 const Named<ObjectType> kSamplerTypes = {{"independent", {{kSampleCount}, read_sampler}}};
 
 std::string film_size_error(const FilmSize& size) {
-  constexpr int kMaxSide = 1 << 16;
-  constexpr long long kMaxPixels = 1LL << 26;  // at 56 bytes each, 3.5 GB of moments
-  if (size.width >= 1 && size.width <= kMaxSide && size.height >= 1 && size.height <= kMaxSide &&
-      static_cast<long long>(size.width) * size.height <= kMaxPixels) {
+  if (size.width >= 1 && size.width <= kMaxImageSide && size.height >= 1 &&
+      size.height <= kMaxImageSide && std::int64_t{size.width} * size.height <= kMaxImagePixels) {
     return {};
   }
   return fmt::format("a film of {}x{} is not supported: sides go from 1 to {}, pixels up to {}",
-                     size.width, size.height, kMaxSide, kMaxPixels);
+                     size.width, size.height, kMaxImageSide, kMaxImagePixels);
 }
 
 }  // namespace plumbline::renderer

@@ -11,7 +11,14 @@ class FormatError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A results directory that cannot be reported: not there, not a directory, or empty.
+/// A record that asks for more than budgets.h has for it.
+class BudgetError : public FormatError {
+ public:
+  using FormatError::FormatError;
+};
+
+/// A results directory that cannot be reported: not there, not a directory, empty, or with a file
+/// that asks for more than budgets.h has for it.
 class ResultsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -99,7 +99,8 @@ struct Results {
 /// Plumbline format. A line that is torn or of an unknown version becomes a warning, never a silent
 /// loss; `*.json` files of others (without a `format`) are passed over.
 ///
-/// @throws ResultsError where the directory is missing, is not one, or holds no record at all
+/// @throws ResultsError where the directory is missing, is not one, holds no record at all, or one
+///         that asks for more than budgets.h has for it ("file:line: what and what to do")
 Results read_results(const std::filesystem::path& directory);
 
 /// How many checks there are of each kind.

@@ -11,6 +11,12 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A file that asks for more than budgets.h has for it, or than it holds.
+class BudgetError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// The machine failed us, not the user: a full disk, no memory. The command's exit code 3.
 class MachineError : public std::runtime_error {
  public:

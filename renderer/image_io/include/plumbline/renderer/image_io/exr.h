@@ -33,7 +33,13 @@ void write_exr(const std::filesystem::path& path, const Image& image);
 
 /// Reads R, G, B (or Y alone) and, where present, the layers that write_exr makes.
 ///
-/// @throws InputError "file: what" for anything that is not such an image
+/// @throws BudgetError "file: what" for one that claims more than core/budgets.h has for it, or than
+///         it can hold, before memory is taken for that; InputError for anything else that is not
+///         such an image
 Image read_exr(const std::filesystem::path& path);
+
+/// Refuses an OpenEXR file for what its header claims, by which OpenEXR itself takes memory: as
+/// read_exr does, without the file's name.
+void check_exr_claims(const std::filesystem::path& path);
 
 }  // namespace plumbline::renderer
