@@ -8,7 +8,9 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
@@ -17,6 +19,7 @@
 #include <plumbline/verify/image.h>
 
 #include "command.h"
+#include "progress.h"
 #include "scene_argument.h"
 
 namespace plumbline::tools {
@@ -78,12 +81,30 @@ std::string header_value(const renderer::Image& image, const std::string& key) {
   return found == image.metadata.end() ? std::string() : found->second;
 }
 
+/// A whole number that the header states, or nothing where it has none of that name.
+///
+/// @throws renderer::InputError where it is no whole number, or not between the bounds
+std::optional<std::int64_t> header_number(const renderer::Image& image, const std::string& key,
+                                          std::int64_t low, std::int64_t high,
+                                          const std::string& what_to_do) {
+  const std::string text = header_value(image, key);
+  if (text.empty()) return std::nullopt;
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc() && end == text.data() + text.size() && number >= low && number <= high) {
+    return number;
+  }
+  throw renderer::InputError(
+      fmt::format("the image's header has {}={:.40}, not a whole number from "
+                  "{} to {}: {}",
+                  key, text, low, high, what_to_do));
+}
+
 /// Samples that the renderer left out of the image's mean, if its header says so.
 std::uint64_t non_finite_samples(const renderer::Image& image) {
-  const std::string text = header_value(image, "non_finite");
-  std::uint64_t count = 0;
-  std::from_chars(text.data(), text.data() + text.size(), count);
-  return count;
+  const auto count = header_number(image, "non_finite", 0, std::numeric_limits<std::int64_t>::max(),
+                                   "render it again");
+  return static_cast<std::uint64_t>(count.value_or(0));
 }
 
 int report_verdict(const verify::CheckResult& check) {
@@ -108,10 +129,26 @@ std::optional<int> max_depth_of(const renderer::Image& image, const CompareArgum
   if (arguments.max_depth || header_value(image, "scene") != arguments.scene) {
     return arguments.max_depth;
   }
-  const std::string text = header_value(image, "max_depth");
-  int depth = 0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), depth);
-  return parsed.ec == std::errc() ? std::optional(depth) : std::nullopt;
+  constexpr int kDeepest = 1'000'000;  // no path of a render that ends has gone further
+  const auto depth =
+      header_number(image, "max_depth", -1, kDeepest, "say --max-depth, -1 where it was unlimited");
+  return depth ? std::optional(static_cast<int>(*depth)) : std::nullopt;
+}
+
+/// The closed form of every pixel: minutes, where it is by quadrature and the image is large.
+std::vector<analytic::Colour> exact_image(const analytic::PixelOracle& oracle) {
+  const auto [width, height] = oracle.film();
+  const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  Progress progress(0, true);
+  std::vector<analytic::Colour> image;
+  image.reserve(size);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      image.push_back(oracle.pixel_mean(x, y).value);
+      progress.update(static_cast<double>(image.size()) / static_cast<double>(size));
+    }
+  }
+  return image;
 }
 
 /// Is this image, whoever rendered it, unbiased against the closed form of a known scene?
@@ -121,7 +158,7 @@ int compare_with_closed_form(const CompareArguments& arguments) {
   const auto oracle =
       make_oracle(scene, numeric_values(parameters_of(image, arguments)),
                   analytic::FilmSize{image.width, image.height}, max_depth_of(image, arguments));
-  const std::vector<analytic::Colour> exact = oracle->image();
+  const std::vector<analytic::Colour> exact = exact_image(*oracle);
   const bool grey =
       is_grey(image) &&
       std::all_of(exact.begin(), exact.end(), [](const auto& colour) { return colour.is_grey(); });
@@ -146,27 +183,74 @@ void require_same_size(const renderer::Image& a, const renderer::Image& b) {
                                          a.height, b.width, b.height));
 }
 
-bool same_bits(const renderer::Rgbf& a, const renderer::Rgbf& b) {
-  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
-  return bits(a.r) == bits(b.r) && bits(a.g) == bits(b.g) && bits(a.b) == bits(b.b);
+bool same_bits(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-/// Do two images hold the same pixels, bit for bit?
-int compare_exactly(const renderer::Image& a, const renderer::Image& b) {
+bool same_bits(const renderer::Rgbf& a, const renderer::Rgbf& b) {
+  return same_bits(a.r, b.r) && same_bits(a.g, b.g) && same_bits(a.b, b.b);
+}
+
+std::string shown(float value) { return fmt::format("{}", value); }
+std::string shown(const renderer::Rgbf& p) { return fmt::format("{} {} {}", p.r, p.g, p.b); }
+
+/// What the headers of two images of the same thing may differ in: when, where and by which build
+/// they were made. Ours, and what other programs write.
+const std::set<std::string> kMayDiffer = {"seconds",  "version", "capDate", "Date",
+                                          "date",     "Time",    "time",    "RenderTime",
+                                          "Software", "host",    "Host",    "hostname"};
+
+/// Prints in which pixels a layer of two images differs, if it does.
+/// @return whether it is the same, bit for bit
+template <class T>
+bool same_layer(const char* layer, const std::vector<T>& a, const std::vector<T>& b, int width) {
+  if (a.size() != b.size()) {
+    fmt::print("only the {} image has the layer {}\n", a.empty() ? "second" : "first", layer);
+    return false;
+  }
   std::size_t different = 0, first = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    if (same_bits(a.pixels[i], b.pixels[i])) continue;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (same_bits(a[i], b[i])) continue;
     if (different++ == 0) first = i;
   }
-  if (different == 0) {
-    fmt::print("the images are identical: {} pixels, bit for bit\n", a.pixels.size());
-    return kExitFine;
-  }
-  const auto width = static_cast<std::size_t>(a.width);
-  const renderer::Rgbf &p = a.pixels[first], &q = b.pixels[first];
-  fmt::print("{} of {} pixels differ, the first at ({}, {}): {} {} {} and {} {} {}\n", different,
-             a.pixels.size(), first % width, first / width, p.r, p.g, p.b, q.r, q.g, q.b);
-  return kExitUnexpectedVerdict;
+  if (different == 0) return true;
+  const auto across = static_cast<std::size_t>(width);
+  fmt::print("{}: {} of {} pixels differ, the first at ({}, {}): {} and {}\n", layer, different,
+             a.size(), first % across, first / across, shown(a[first]), shown(b[first]));
+  return false;
+}
+
+/// Prints in which texts the headers of two images differ, if they do.
+/// @return whether they are the same, but for what may differ
+bool same_header(const renderer::Image& a, const renderer::Image& b) {
+  bool same = true;
+  const auto print_if_not_in = [&](const renderer::Image& one, const renderer::Image& other,
+                                   bool swapped) {
+    for (const auto& [key, value] : one.metadata) {
+      const auto found = other.metadata.find(key);
+      const bool there = found != other.metadata.end();
+      if (kMayDiffer.count(key) > 0 || (there && (swapped || found->second == value))) continue;
+      const std::string second = there ? found->second : "nothing";
+      fmt::print("header: {}: {:.60} and {:.60}\n", key, swapped ? second : value,
+                 swapped ? value : second);
+      same = false;
+    }
+  };
+  print_if_not_in(a, b, false);
+  print_if_not_in(b, a, true);
+  return same;
+}
+
+/// Do two images hold the same in every layer, bit for bit, and in the header?
+int compare_exactly(const renderer::Image& a, const renderer::Image& b) {
+  bool same = same_layer("R, G, B", a.pixels, b.pixels, a.width);
+  same &= same_layer("variance", a.variance, b.variance, a.width);
+  same &= same_layer("count", a.count, b.count, a.width);
+  same &= same_header(a, b);
+  if (!same) return kExitUnexpectedVerdict;
+  fmt::print("the images are identical: {} pixels in every layer, bit for bit, and the header\n",
+             a.pixels.size());
+  return kExitFine;
 }
 
 /// Do two renders have the same mean everywhere?
@@ -223,7 +307,8 @@ void add_compare_command(options::CommandLine& line) {
            "Largest relative bias that passes; 0.01 without it")
       .positive_number()
       .type("E");
-  command.add_flag("--exact", arguments->exact, "Two images must be equal bit for bit");
+  command.add_flag("--exact", arguments->exact,
+                   "Two images must be equal bit for bit in every layer, and in the header");
   command
       .add("--max-depth", arguments->max_depth,
            "Depth that the image was rendered with, if not the scene's")
@@ -234,14 +319,17 @@ void add_compare_command(options::CommandLine& line) {
            "Value that the image was rendered with, if not the scene's; repeatable")
       .one_value_each()
       .type("NAME=VALUE");
-  command.footer(
+  command.footer(fmt::format(
       R"(Images of plumbline carry their parameters and depth in the header; others need -D and --max-depth
-where they differ from the scene file.
+where they differ from the scene file. --exact compares R, G, B, variance and count, and every text of the
+header but for when, where and by which build it was made:
+{}.
 
 Examples:
   plumbline compare image.exr --scene furnace_sphere --tolerance 0.005
   plumbline compare mis.exr light.exr
-  plumbline compare before.exr after.exr --exact)");
+  plumbline compare before.exr after.exr --exact)",
+      fmt::join(kMayDiffer, ", ")));
   command.runs([arguments] { return run_compare(*arguments); });
 }
 

@@ -25,7 +25,14 @@ double closed_furnace_radiance(double albedo, double radiance, int max_depth) {
     }
     return radiance / (1 - albedo);
   }
-  // Term by term: (1 − albedo^k)/(1 − albedo) cancels near albedo 1, and fails at 1.
+  // Term by term: (1 − albedo^k)/(1 − albedo) cancels near albedo 1, and fails at 1. Beyond a few
+  // terms, of which a header may ask for billions, by functions that do not cancel.
+  constexpr int kFewTerms = 1000;
+  if (max_depth > kFewTerms) {
+    const double sum =
+        albedo == 1 ? max_depth : -std::expm1(max_depth * std::log1p(albedo - 1)) / (1 - albedo);
+    return radiance * sum;
+  }
   double sum = 0;
   double power = 1;
   for (int i = 0; i < max_depth; ++i) {

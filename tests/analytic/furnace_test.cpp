@@ -1,9 +1,11 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include <gtest/gtest.h>
+
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include <plumbline/analytic/bsdf_albedo.h>
@@ -41,6 +43,18 @@ TEST(ClosedFurnace, PartialSumsAgreeWithTheGeometricFormula) {
 
 TEST(ClosedFurnace, DeepPathsReachTheLimit) {
   EXPECT_NEAR(closed_furnace_radiance(0.9, 1, 1000), closed_furnace_radiance(0.9, 1, -1), 1e-12);
+}
+
+TEST(ClosedFurnace, SumsOfBillionsOfTermsAreExactWithoutAddingThem) {
+  constexpr int kMost = std::numeric_limits<int>::max();
+  EXPECT_EQ(closed_furnace_radiance(1, 0.5, kMost), 0.5 * kMost);
+  EXPECT_EQ(closed_furnace_radiance(0, 0.5, kMost), 0.5);
+  EXPECT_EQ(closed_furnace_radiance(0.5, 0.5, kMost), 1);
+  // Where a sum of 1001 terms begins to be another formula it is the sum of 1000 and one more.
+  for (const double albedo : {0.25, 0.999, 1 - 1e-9, 1 - 1e-15, 1.0}) {
+    const double sum = closed_furnace_radiance(albedo, 1, 1000) + std::pow(albedo, 1000);
+    EXPECT_NEAR(closed_furnace_radiance(albedo, 1, 1001), sum, 1e-12 * sum) << albedo;
+  }
 }
 
 TEST(ClosedFurnace, RefusesWhatHasNoAnswer) {

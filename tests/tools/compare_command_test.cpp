@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <plumbline_tests/support.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -205,7 +206,79 @@ TEST(CompareCommand, ExactSeesTheLastBit) {
   renderer::write_exr(scratch / "b.exr", image);
   const Outcome outcome = run_plumbline(scratch.path(), "compare a.exr b.exr --exact");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.out.find("1 of 1200 pixels differ, the first at (5, 1)"), std::string::npos);
+  EXPECT_NE(outcome.out.find("R, G, B: 1 of 1200 pixels differ, the first at (5, 1)"),
+            std::string::npos);
+}
+
+TEST(CompareCommand, ExactSeesEveryLayerAndTheHeader) {
+  const ScratchDirectory scratch;
+  render(scratch, "furnace_open -o a.exr --spp 2");
+  const renderer::Image image = renderer::read_exr(scratch / "a.exr");
+  const auto expect_difference = [&](const renderer::Image& other, const std::string& message) {
+    renderer::write_exr(scratch / "b.exr", other);
+    const Outcome outcome = run_plumbline(scratch.path(), "compare a.exr b.exr --exact");
+    EXPECT_EQ(outcome.exit_code, message.empty() ? 0 : 1) << message;
+    EXPECT_NE(outcome.out.find(message.empty() ? "the images are identical" : message),
+              std::string::npos)
+        << outcome.out;
+  };
+  renderer::Image other = image;
+  other.variance[41].g = std::nextafter(other.variance[41].g, 1.0f);
+  expect_difference(other, "variance: 1 of 1200 pixels differ, the first at (1, 1)");
+  other = image;
+  other.count[80] += 1;
+  expect_difference(other, "count: 1 of 1200 pixels differ, the first at (0, 2): 2 and 3");
+  other = image;
+  other.count.clear();
+  expect_difference(other, "only the first image has the layer count");
+  other = image;
+  other.metadata["seed"] = "7";
+  expect_difference(other, "header: seed: 0 and 7");
+  other = image;
+  other.metadata.erase("sampler");
+  expect_difference(other, "header: sampler: independent and nothing");
+  other = image;
+  other.metadata["parameter.albedo"] = "0.5";
+  expect_difference(other, "header: parameter.albedo: nothing and 0.5");
+  other = image;  // what may differ
+  other.metadata["seconds"] = "12";
+  other.metadata["capDate"] = "2026:11:30 12:00:00";
+  expect_difference(other, "");
+}
+
+/// The header's word for how deep an image was rendered decides how long its closed form takes.
+TEST(CompareCommand, DepthsThatAHeaderClaimsAreReadAsNumbersAndBounded) {
+  const ScratchDirectory scratch;
+  render(scratch, "furnace_sphere -o a.exr --spp 16 --strategy bsdf");
+  renderer::Image image = renderer::read_exr(scratch / "a.exr");
+  for (const char* depth : {"2147483647", "1000001", "-2", "9999999999999999999", "nan", "5x"}) {
+    image.metadata["max_depth"] = depth;
+    renderer::write_exr(scratch / "b.exr", image);
+    const Outcome outcome = run_plumbline(scratch.path(), "compare b.exr --scene furnace_sphere");
+    EXPECT_EQ(outcome.exit_code, 2) << depth << outcome.out;
+    EXPECT_NE(outcome.err.find(std::string("the image's header has max_depth=") + depth +
+                               ", not a whole number from -1 to 1000000: say --max-depth"),
+              std::string::npos)
+        << outcome.err;
+  }
+  // By hand any depth will do: no closed form takes longer for it.
+  EXPECT_EQ(
+      run_plumbline(scratch.path(), "compare b.exr --scene furnace_sphere --max-depth 2147483647")
+          .exit_code,
+      0);
+  image.metadata["max_depth"] = "1000000";
+  image.metadata["non_finite"] = "some";
+  renderer::write_exr(scratch / "b.exr", image);
+  EXPECT_EQ(run_plumbline(scratch.path(), "compare b.exr --scene furnace_sphere").exit_code, 2);
+}
+
+TEST(CompareCommand, AClosedFormByQuadratureShowsItsProgressOnATerminal) {
+  const ScratchDirectory scratch;
+  const Outcome rendered =
+      run_plumbline(scratch.path(), "render sphere_shadow -o a.exr --spp 4 --size 6x4");
+  ASSERT_EQ(rendered.exit_code, 0) << rendered.err;
+  const std::string shown = run_on_terminal(scratch.path(), "compare a.exr --scene sphere_shadow");
+  EXPECT_NE(shown.find(" s left"), std::string::npos) << shown;
 }
 
 }  // namespace
