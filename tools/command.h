@@ -14,6 +14,7 @@ inline constexpr int kExitMachineFailed = 3;      ///< disk full, out of memory
 void add_list_command(options::CommandLine& line);
 void add_render_command(options::CommandLine& line);
 void add_calibrate_command(options::CommandLine& line);
+void add_check_command(options::CommandLine& line);
 void add_compare_command(options::CommandLine& line);
 void add_report_command(options::CommandLine& line);
 void add_verify_command(options::CommandLine& line);

@@ -74,6 +74,7 @@ int main_of(int argc, char** argv) {
   line.program().footer(kExamples);
   add_list_command(line);
   add_render_command(line);
+  add_check_command(line);
   add_compare_command(line);
   add_calibrate_command(line);
   add_verify_command(line);

@@ -146,11 +146,11 @@ TEST_P(RefusedBsdf, SaysWhereAndWhy) {
 
 const std::vector<Refusal> kRefusals = {
     {"NoDistribution", R"(<bsdf type="roughconductor" id="a"/>)",
-     R"(3: <bsdf type="roughconductor"> needs <string name="distribution">)"},
+     R"(3: <bsdf type="roughconductor"> needs <string name="distribution" value="ggx">)"},
     {"Beckmann",
      "<bsdf type=\"roughconductor\" id=\"a\">\n"
      R"(<string name="distribution" value="beckmann"/></bsdf>)",
-     R"(4: <string name="distribution">: "beckmann" is not supported; supported: ggx)"},
+     R"(4: <string name="distribution">: "beckmann" is not supported; write ggx, whose tails are longer)"},
     {"AlphaOutOfRange",
      R"(<bsdf type="roughconductor" id="a"><float name="alpha" value="1e-5"/></bsdf>)",
      R"(3: <float name="alpha">: must lie between 0.0001 and 1)"},

@@ -22,25 +22,22 @@ const std::vector<Refusal> kBodies = {
     {"UnknownElement", "<shap type=\"sphere\"/>",
      R"(3: <scene> may not hold <shap>; did you mean "shape"?)"},
     {"UnsupportedElement", "<medium type=\"homogeneous\"/>",
-     "3: <scene> may not hold <medium>; supported: default, integrator, sensor, bsdf, shape, "
-     "emitter"},
+     "3: <scene> may not hold <medium>: remove it"},
     {"Include", "<include filename=\"other.xml\"/>",
-     "3: <scene> may not hold <include>; supported: default, integrator, sensor, bsdf, shape, "
-     "emitter"},
+     "3: <include>: other.xml: there is no such file"},
     {"UnknownShape", "\n<shape type=\"sphear\"/>",
      R"(4: <shape> of type "sphear" is not supported; did you mean "sphere"?)"},
     {"UnknownShapeInStrangeCharacters", "<shape type=\"\x7f~ \x1f\xc3\xa9\"/>",
      "3: <shape> of type \"?~ ?\xc3\xa9\" is not supported; supported: sphere, rectangle, disk, "
      "obj"},
     {"UnsupportedShape", "<shape type=\"cylinder\"/>",
-     R"(3: <shape> of type "cylinder" is not supported; supported: sphere, rectangle, disk, obj)"},
+     R"(3: <shape> of type "cylinder" is not supported: convert the mesh to an obj file)"},
     {"NoType", "<shape/>", R"(3: <shape> needs the attribute "type")"},
     {"UnsupportedBsdf", "<bsdf type=\"measured\" id=\"a\"/>",
-     "3: <bsdf> of type \"measured\" is not supported; supported: diffuse, conductor, "
-     "roughconductor, dielectric, roughdielectric, twosided, blendbsdf, clearcoat, thinfilm, "
-     "phong"},
+     "3: <bsdf> of type \"measured\" is not supported: write diffuse, roughconductor, "
+     "roughdielectric, or a blendbsdf of two of them"},
     {"UnsupportedIntegrator", "<integrator type=\"volpath\"/>",
-     R"(3: <integrator> of type "volpath" is not supported; did you mean "path"?)"},
+     R"(3: <integrator> of type "volpath" is not supported: write path)"},
     {"EnvironmentInShape", "<shape type=\"sphere\"><emitter type=\"constant\"/></shape>",
      R"(3: <emitter> of type "constant" is not supported; supported: area)"},
     {"AreaLightWithoutShape", "<emitter type=\"area\"/>",
@@ -81,7 +78,8 @@ const std::vector<Refusal> kBodies = {
      R"(3: <string name="radius"> of <shape type="sphere"> must be a <float>)"},
     {"Texture",
      "<bsdf type=\"diffuse\" id=\"a\"><texture name=\"reflectance\" type=\"bitmap\"/></bsdf>",
-     R"(3: <texture name="reflectance"> of <bsdf type="diffuse"> must be a <rgb>)"},
+     "3: <texture name=\"reflectance\"> of <bsdf type=\"diffuse\"> must be a <rgb> or <spectrum>: "
+     "write <rgb> with the texture's mean colour"},
     {"PropertyTwice",
      "<shape type=\"sphere\"><float name=\"radius\" value=\"1\"/>\n<float name=\"radius\" "
      "value=\"2\"/></shape>",
@@ -146,7 +144,8 @@ const std::vector<Refusal> kBodies = {
      R"(3: <rgb name="reflectance">: "" is not a number)"},
     {"HexColour",
      "<bsdf type=\"diffuse\" id=\"a\"><rgb name=\"reflectance\" value=\"#ff0000\"/></bsdf>",
-     R"(3: <rgb name="reflectance">: "#ff0000" is not a number)"},
+     "3: <rgb name=\"reflectance\">: \"#ff0000\" is not a number: write linear ones, each (c / "
+     "255)^2.2 or so of the sRGB byte c"},
     {"PointInBothForms",
      "<shape type=\"sphere\"><point name=\"center\" x=\"1\" value=\"1\"/></shape>",
      R"(3: <point name="center"> needs either "value" or any of "x", "y" and "z")"},
@@ -246,7 +245,8 @@ const std::vector<Refusal> kBodies = {
     {"ReferenceToAShape", "<shape type=\"disk\" id=\"a\"><ref id=\"a\"/></shape>",
      R"(3: id "a" is a <shape>, not a <bsdf>)"},
     {"ReferenceInTheScene", "<ref id=\"a\"/>",
-     "3: <scene> may not hold <ref>; supported: default, integrator, sensor, bsdf, shape, emitter"},
+     "3: <scene> may not hold <ref>; supported: default, include, integrator, path, sensor, bsdf, "
+     "shape, emitter"},
     {"SharedBsdfWithoutId", "<bsdf type=\"diffuse\"/>",
      R"(3: <bsdf type="diffuse"> needs an id, or no shape can refer to it)"},
     {"UndeclaredParameter",
@@ -281,8 +281,8 @@ const std::vector<Refusal> kBodies = {
      R"(3: <shape type="obj"> needs <string name="filename">)"},
     {"ObjWithSmoothNormals",
      "<shape type=\"obj\"><string name=\"filename\" value=\"a.obj\"/></shape>",
-     "3: <shape type=\"obj\">: smooth normals are not supported: an obj needs <boolean "
-     "name=\"face_normals\" value=\"true\"/>"},
+     "3: <shape type=\"obj\">: false, the default, asks for smooth normals, which are not "
+     "supported: write <boolean name=\"face_normals\" value=\"true\"/> for flat triangles"},
     {"MissingMesh",
      "<shape type=\"obj\"><string name=\"filename\" value=\"no.obj\"/><boolean "
      "name=\"face_normals\" value=\"true\"/></shape>",
@@ -313,8 +313,11 @@ const std::vector<Refusal> kFiles = {
     {"AttributeOfTheScene", "<scene version=\"3.0.0\" verson=\"3.0.0\"/>",
      R"(1: <scene> has no attribute "verson"; did you mean "version"?)"},
     {"OldVersion", "<scene version=\"0.6.0\"/>",
-     "1: scene version \"0.6.0\" is not supported; supported: 3.0.0 and what follows with a "
-     "leading 3"},
+     "1: scene version \"0.6.0\" is not supported: write 3.0.0, and names as it has them: to_world "
+     "for toWorld, and so for all in camelCase (max_depth, sample_count, fov_axis, flip_normals, "
+     "int_ior, ext_ior, alpha_u, near_clip), and lookat for lookAt"},
+    {"NewVersion", "<scene version=\"4.0.0\"/>",
+     R"(1: scene version "4.0.0" is not supported; write 3.0.0)"},
     {"NoSensor", "<scene version=\"3.0.0\">\n<shape type=\"sphere\"/></scene>",
      "1: the scene has no <sensor>"},
     {"ExternalEntity",
@@ -330,7 +333,7 @@ const std::vector<Refusal> kFiles = {
     {"CharacterData", "<scene version=\"3.0.0\">\n<![CDATA[x]]></scene>",
      R"(2: text "x" outside of an attribute)"},
     {"SensorOfAnotherType", "<scene version=\"3.0.0\"><sensor type=\"thinlens\"/></scene>",
-     R"(1: <sensor> of type "thinlens" is not supported; supported: perspective)"},
+     R"(1: <sensor> of type "thinlens" is not supported: write perspective, a pinhole)"},
     {"SensorWithoutFieldOfView",
      "<scene version=\"3.0.0\">\n<sensor type=\"perspective\"/></scene>",
      R"(2: <sensor type="perspective"> needs <float name="fov">)"},
@@ -338,11 +341,10 @@ const std::vector<Refusal> kFiles = {
      "<scene version=\"3.0.0\"><sensor type=\"perspective\">\n<float name=\"fvo\" "
      "value=\"40\"/></sensor></scene>",
      R"(2: <sensor type="perspective"> has no property "fvo"; did you mean "fov"?)"},
-    {"ClippingPlanes",
+    {"NegativeClippingPlane",
      "<scene version=\"3.0.0\"><sensor type=\"perspective\">\n<float name=\"near_clip\" "
-     "value=\"1\"/></sensor></scene>",
-     "2: <sensor type=\"perspective\"> has no property \"near_clip\"; supported: fov, fov_axis, "
-     "to_world"},
+     "value=\"-1\"/></sensor></scene>",
+     R"(2: <float name="near_clip">: must be at least 0)"},
     {"SensorWithoutFilm",
      "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" "
      "value=\"40\"/></sensor></scene>",
@@ -365,11 +367,13 @@ const std::vector<Refusal> kFiles = {
     {"FilmWithoutFilter",
      "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" "
      "value=\"40\"/>\n<film type=\"hdrfilm\"/></sensor></scene>",
-     R"(2: <film type="hdrfilm"> needs <rfilter>)"},
+     "2: <film type=\"hdrfilm\"> needs <rfilter>: write <rfilter type=\"box\"/>, Mitsuba's default "
+     "is another"},
     {"GaussianFilter",
      "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" "
      "value=\"40\"/><film type=\"hdrfilm\"><rfilter type=\"gaussian\"/></film></sensor></scene>",
-     R"(1: <rfilter> of type "gaussian" is not supported; supported: box)"},
+     "1: <rfilter> of type \"gaussian\" is not supported: write box, by which pixels depend on "
+     "their own samples alone"},
     {"FilmOfNoWidth",
      "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" "
      "value=\"40\"/><film type=\"hdrfilm\"><integer name=\"width\" value=\"0\"/><rfilter "

@@ -13,7 +13,7 @@ TEST(Help, ShowsExamplesOfEveryCommand) {
   const ScratchDirectory scratch;
   for (const char* arguments :
        {"--help", "list --help", "render --help", "compare --help", "calibrate --help",
-        "report --help", "verify --help", "history --help"}) {
+        "check --help", "report --help", "verify --help", "history --help"}) {
     const Outcome outcome = run_plumbline(scratch.path(), arguments);
     EXPECT_EQ(outcome.exit_code, 0) << arguments;
     EXPECT_NE(outcome.out.find("Example"), std::string::npos) << arguments;
@@ -55,6 +55,20 @@ TEST(List, WithoutATopicShowsAll) {
   for (const char* name : {"furnace_cube", "one-sample", "balance", "diffuse", "constant"}) {
     EXPECT_NE(out.find(name), std::string::npos) << name;
   }
+}
+
+TEST(Check, ListsAllThatIsInTheWay) {
+  const ScratchDirectory scratch;
+  scratch.write("scene.xml",
+                "<scene version=\"3.0.0\">\n<shap/>\n<integrator type=\"bdpt\"/></scene>");
+  const Outcome outcome = run_plumbline(scratch.path(), "check scene.xml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out,
+            "scene.xml:1: the scene has no <sensor>\n"
+            "scene.xml:2: <scene> may not hold <shap>; did you mean \"shape\"?\n"
+            "scene.xml:3: <integrator> of type \"bdpt\" is not supported: write path\n");
+  EXPECT_EQ(run_plumbline(scratch.path(), "check furnace_open").exit_code, 0);
+  EXPECT_EQ(run_plumbline(scratch.path(), "check furnace_open -D albedo=2").exit_code, 2);
 }
 
 struct Misuse {

@@ -129,7 +129,7 @@ void check_overrides(const Reading& in) {
   refuse(kNowhere, "parameter {} is set, but nothing in the file uses it", in_quotes(name));
 }
 
-/// Puts parameters into an element and those in it, and registers their ids.
+/// Puts parameters into an element, and registers its id.
 void prepare(Node node, Reading& in) {
   put_parameters_in(node, in);
   if (node.attribute("id") && node.name() != std::string_view("ref")) {
@@ -138,11 +138,20 @@ void prepare(Node node, Reading& in) {
     const auto [place, added] = in.ids.emplace(id, node);
     const Node first = place->second;
     if (!added) {
-      refuse(node, "id {} is taken by the {} on line {}", in_quotes(id), tag_of(first),
-             line_at(in.text, first.offset_debug()));
+      const Source& source = *in.sources[in.source_of(first.root())];
+      const std::string other = first.root() == node.root() ? "" : " of " + source.file.string();
+      refuse(node, "id {} is taken by the {} on line {}{}", in_quotes(id), tag_of(first),
+             line_at(source.text, first.offset_debug()), other);
     }
   }
-  for (const Node child : node.children()) prepare(child, in);
+}
+
+/// Prepares an element and those in it.
+/// @return false where all problems are to be found, and there was one
+bool prepare_all(Node node, Reading& in) {
+  bool good = attempt(in, [&] { prepare(node, in); });
+  for (const Node child : node.children()) good &= prepare_all(child, in);
+  return good;
 }
 
 void read_shared_bsdf(Node node, Reading& in) {
@@ -159,11 +168,34 @@ void read_emitter(Node node, Reading& in) {
   }
 }
 
+template <const Named<ObjectType>& types>
+void read_once(Node node, Reading& in) {
+  if (!in.once.insert(node.name()).second) {
+    refuse(node, "a scene has one {} only", tag_of(node));
+  }
+  read_object(node, types, in);
+}
+
+/// Files are looked for in its folder first from there on, as in Mitsuba.
+void read_path(Node node, Reading& in) {
+  allow_only_attributes(node, {"value"});
+  const std::filesystem::path folder = find_file(attribute(node, "value"), in);
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    fail(node, "{} is not a folder", folder.string());
+  }
+  in.folders.push_back(folder);
+}
+
+void read_include(Node node, Reading& in);
+
 /// What a <scene> may hold.
 const Named<void (*)(Node, Reading&)> kElements = {
     {"default", read_parameter},
-    {"integrator", [](Node node, Reading& in) { read_object(node, kIntegratorTypes, in); }},
-    {"sensor", [](Node node, Reading& in) { read_object(node, kSensorTypes, in); }},
+    {"include", read_include},
+    {"integrator", read_once<kIntegratorTypes>},
+    {"path", read_path},
+    {"sensor", read_once<kSensorTypes>},
     {"bsdf", read_shared_bsdf},
     {"shape", read_shape},
     {"emitter", read_emitter},
@@ -175,45 +207,114 @@ void check_root(Node root) {
   }
   allow_attributes(root, {"version"});
   const std::string version = attribute(root, "version");
-  if (version.substr(0, 2) != "3." ||
+  const std::string start = version.substr(0, 2);
+  const bool is_old = start == "0." || start == "1.";
+  if ((start != "2." && start != "3." && !is_old) ||
       version.find_first_not_of("0123456789.") != std::string::npos) {
-    refuse(root,
-           "scene version {} is not supported; supported: 3.0.0 and what follows with a leading 3",
-           in_quotes(version));
+    refuse(root, "scene version {} is not supported; write 3.0.0", in_quotes(version));
   }
-  for (const char* once : {"integrator", "sensor"}) {
-    if (const Node second = root.child(once).next_sibling(once)) {
-      refuse(second, "a scene has one <{}> only", once);
-    }
+  if (!is_old) return;  // what is read of version 2 has the names and the meaning of 3
+  refuse(root,
+         "scene version {} is not supported: write 3.0.0, and names as it has them: to_world for "
+         "toWorld, and so for all in camelCase (max_depth, sample_count, fov_axis, flip_normals, "
+         "int_ior, ext_ior, alpha_u, near_clip), and lookat for lookAt",
+         in_quotes(version));
+}
+
+/// Reads and parses a file.
+/// @throws InputError "file:line: why" for what is wrong in it
+const Source& add_source(const std::filesystem::path& file, Reading& in) {
+  in.sources.push_back(std::make_unique<Source>());
+  Source& source = *in.sources.back();
+  source.file = file;
+  source.text = read_text_file(file, kMaxSceneBytes - in.bytes);
+  in.bytes += source.text.size();
+  try {
+    parse_xml(source.text, source.xml);
+  } catch (const Refusal& refusal) {
+    throw refusal.in(source.file, source.text);
   }
+  return source;
+}
+
+/// The elements of a file. Where all problems are to be found, one in each does not hide the next.
+void read_elements(const Source& source, Reading& in) {
+  const Node root = source.xml.document_element();
+  attempt(in, [&] { check_root(root); });
+  in.including.push_back(std::filesystem::weakly_canonical(source.file));
+  for (const Node node : root.children()) {
+    attempt(in, [&] {
+      const auto message = fmt::format("{} may not hold {}", tag_of(root), tag_of(node));
+      const auto read = look_up(kElements, node.name(), node, message);
+      if (read == read_parameter || prepare_all(node, in)) read(node, in);
+    });
+  }
+  in.including.pop_back();
+}
+
+/// Reads another scene file in the place of the element.
+void read_include(Node node, Reading& in) {
+  allow_only_attributes(node, {"filename"});
+  const std::filesystem::path file = find_file(attribute(node, "filename"), in);
+  if (std::ranges::count(in.including, std::filesystem::weakly_canonical(file)) > 0) {
+    fail(node, "{} includes itself", file.string());
+  }
+  if (in.including.size() > kMaxIncludeNesting || in.sources.size() > kMaxIncludes) {
+    fail(node, "more than {} files, or {} within each other, are included", kMaxIncludes,
+         kMaxIncludeNesting);
+  }
+  const Source* source = nullptr;
+  try {
+    source = &add_source(file, in);
+  } catch (const InputError& error) {
+    fail(node, "{}", error.what());
+  }
+  read_elements(*source, in);
 }
 
 void read_scene(Reading& in) {
-  pugi::xml_document xml;
-  parse_xml(in.text, xml);
-  const Node root = xml.document_element();
-  check_root(root);
-  for (const Node node : root.children()) {
-    const auto message = fmt::format("<scene> may not hold {}", tag_of(node));
-    const auto read = look_up(kElements, node.name(), node, message);
-    if (read != read_parameter) prepare(node, in);
-    read(node, in);
-  }
+  const Source& source = add_source(in.scene.file, in);
+  read_elements(source, in);
   SceneDescription& scene = in.scene;
-  for (const auto& [shape, ref] : in.references) scene.shapes[shape].bsdf = resolve_bsdf(ref, in);
-  scene.bsdfs = in.bsdfs;
-  if (!root.child("sensor")) refuse(root, "the scene has no <sensor>");
-  if (scene.shapes.empty() && !scene.environment && !scene.environment_map && !scene.sun) {
-    refuse(root, "the scene has neither a <shape> nor an <emitter>");
+  for (const auto& [shape, ref] : in.references) {
+    attempt(in, [&, &at = shape, &to = ref] { scene.shapes[at].bsdf = resolve_bsdf(to, in); });
   }
-  check_overrides(in);
+  scene.bsdfs = in.bsdfs;
+  attempt(in, [&] {
+    const Node root = source.xml.document_element();
+    if (in.once.count("sensor") == 0) refuse(root, "the scene has no <sensor>");
+    if (scene.shapes.empty() && !scene.environment && !scene.environment_map && !scene.sun) {
+      refuse(root, "the scene has neither a <shape> nor an <emitter>");
+    }
+  });
+  attempt(in, [&] { check_overrides(in); });
+  if (!in.problems || in.problems->empty()) attempt(in, [&] { check_clipping(in); });
 }
 
 }  // namespace
 
+std::size_t Reading::source_of(Node document) const {
+  const auto found = std::find_if(sources.begin(), sources.end(),
+                                  [&](const auto& source) { return source->xml == document; });
+  return document && found != sources.end() ? static_cast<std::size_t>(found - sources.begin()) : 0;
+}
+
+InputError Reading::error_of(const Refusal& refusal) const {
+  const Source& source = *sources[source_of(refusal.document)];
+  return refusal.in(source.file, source.text);
+}
+
+std::filesystem::path find_file(const std::string& name, const Reading& in) {
+  std::error_code ignored;
+  for (auto folder = in.folders.rbegin(); folder != in.folders.rend(); ++folder) {
+    if (std::filesystem::exists(*folder / name, ignored)) return *folder / name;
+  }
+  return in.scene.file.parent_path() / name;
+}
+
 std::filesystem::path file_of(const Object& object, const Reading& in) {
   if (object[kFilename].empty()) fail(object.at(kFilename), "names no file");
-  return in.scene.file.parent_path() / object[kFilename];
+  return find_file(object[kFilename], in);
 }
 
 std::vector<SupportedType> supported_types(std::string_view tag) {
@@ -241,15 +342,24 @@ SceneDescription load_scene(const std::filesystem::path& file,
                             std::optional<FilmSize> size) {
   const std::string wrong = size ? film_size_error(*size) : "";
   if (!wrong.empty()) throw InputError(wrong);
-  const std::string text = read_text_file(file, kMaxSceneBytes);
+  Reading in{overrides, size, std::nullopt};
+  in.scene.file = file;
   try {
-    Reading in{text, overrides, size};
-    in.scene.file = file;
     read_scene(in);
     return std::move(in.scene);
   } catch (const Refusal& refusal) {
-    throw refusal.in(file, text);
+    throw in.error_of(refusal);
   }
+}
+
+std::vector<std::string> check_scene(const std::filesystem::path& file,
+                                     const std::map<std::string, std::string>& overrides) {
+  Reading in{overrides, std::nullopt, std::set<Problem>()};
+  in.scene.file = file;
+  attempt(in, [&] { read_scene(in); });
+  std::vector<std::string> lines;
+  for (const Problem& problem : *in.problems) lines.push_back(std::get<std::string>(problem));
+  return lines;
 }
 
 }  // namespace plumbline::renderer

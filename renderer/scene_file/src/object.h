@@ -22,12 +22,14 @@ inline const Kind<double> kFloat{{"float"}, parse_number<double>};
 inline const Kind<int> kInteger{{"integer"}, parse_number<int>};
 inline const Kind<bool> kBoolean{{"boolean"}, parse_boolean};
 inline const Kind<std::string> kString{{"string"}, parse_string};
-inline const Kind<Rgbd> kRgb{{"rgb"}, parse_rgb};
+inline const Kind<Rgbd> kRgb{{"rgb", "spectrum"}, parse_rgb};
 inline const Kind<Vec3d> kPoint{{"point"}, parse_vector};
 inline const Kind<Vec3d> kVector{{"vector"}, parse_vector};
 inline const Kind<Affine> kTransform{{"transform"}, parse_transform};
 
 inline constexpr const char* kRequired = nullptr;
+/// In place of the default of what is taken only where it changes nothing: it has no value.
+inline constexpr const char* kWithoutEffect = "without effect";
 
 struct PropertyRow {
   std::string name;
@@ -62,11 +64,17 @@ struct ObjectType {
 /// The values of an object: of every property of its type, given or not.
 class Object {
  public:
+  /// One of a type that is not known: nothing of it can be asked for.
+  explicit Object(Node node) : node_(node) {}
+
   /// @throws Refusal at the first child that is wrong or that the type has no row for, else for the
-  ///         first property that is missing: a misspelt name is the likelier cause of that
-  Object(Node node, const ObjectType& type);
+  ///         first property that is missing: a misspelt name is the likelier cause of that. Where
+  ///         all problems are to be found, it is not good instead, and may lack values
+  Object(Node node, const ObjectType& type, Reading& in);
 
   Node node() const { return node_; }
+  bool is_known() const { return !given_.empty(); }
+  bool is_good() const { return good_; }
 
   template <class T>
   const T& operator[](const Property<T>& property) const {
@@ -93,17 +101,20 @@ class Object {
   }
 
  private:
+  friend Object read_object(Node node, const Named<ObjectType>& types, Reading& in);
   void add(Node child, const PropertyRow& row);
   void complete(const PropertyRow& row);
   [[noreturn]] void refuse_child(Node child, const ObjectType& type) const;
 
   Node node_;
+  bool good_ = false;
   std::map<std::string, std::vector<Node>> given_;  ///< elements of each property
   std::map<std::string, std::any> values_;
 };
 
 /// Reads an object by the row of its type.
 ///
+/// @return  its values; not good, while all problems are to be found, where nothing came of it
 /// @throws Refusal for a type that is none of these
 Object read_object(Node node, const Named<ObjectType>& types, Reading& in);
 

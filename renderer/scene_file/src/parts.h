@@ -3,6 +3,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include <plumbline/renderer/assembly/bsdf.h>
 #include <plumbline/renderer/assembly/description.h>
@@ -20,19 +22,46 @@ struct BsdfContext {
   int depth = 0;          ///< levels of BSDFs below it
 };
 
+/// A scene file, or one that it includes.
+struct Source {
+  std::filesystem::path file;
+  std::string text;
+  pugi::xml_document xml = {};
+};
+
+/// The camera's planes that clip in Mitsuba and not here, with what gives them [m].
+struct Clips {
+  std::optional<std::pair<Node, double>> near, far;
+};
+
+/// What is wrong, with the source and the offset in it for the order.
+using Problem = std::tuple<std::size_t, std::ptrdiff_t, std::string>;
+
 /// A scene as far as it has been read.
 struct Reading {
-  std::string_view text;                         ///< the file
   std::map<std::string, std::string> overrides;  ///< of parameters, as far as nothing has used them
   std::optional<FilmSize> size;                  ///< in place of the file's
-  std::size_t put_in = 0;                        ///< by parameters [bytes]
-  std::map<std::string, Node> ids = {};          ///< elements, by the id that only they have
+  std::optional<std::set<Problem>> problems;  ///< where all are to be found, not the first thrown
+  std::vector<std::unique_ptr<Source>> sources = {};  ///< the scene file, then what it includes
+  std::vector<std::filesystem::path> including = {};  ///< files that are being read, outer first
+  std::vector<std::filesystem::path> folders = {};    ///< of <path>s
+  std::size_t bytes = 0;                              ///< of the sources
+  std::size_t put_in = 0;                             ///< by parameters [bytes]
+  std::map<std::string, Node> ids = {};               ///< elements, by the id that only they have
+  std::set<std::string> once = {};                    ///< tags of elements that a scene has once
+  Clips clips = {};
   SceneDescription scene = {};
   std::shared_ptr<BsdfSet> bsdfs = std::make_shared<BsdfSet>();  ///< nested ones before their nests
   std::vector<BsdfContext> contexts = {};                        ///< of each BSDF
   std::map<std::string, std::uint32_t> bsdfs_by_id = {};
   std::optional<std::uint32_t> default_bsdf = {};             ///< of shapes without one
   std::vector<std::pair<std::size_t, Node>> references = {};  ///< shapes with their <ref>s
+
+  /// Which of the sources an element or a refusal is of.
+  std::size_t source_of(Node document) const;
+
+  /// "file:line: why"
+  InputError error_of(const Refusal& refusal) const;
 
   /// @return its index
   std::uint32_t add_bsdf(Bsdf bsdf, const BsdfContext& context = {}) {
@@ -41,6 +70,23 @@ struct Reading {
   }
 };
 
+/// Does a part of the reading. Where all problems are to be found, one in it is noted.
+///
+/// @return whether there was none
+template <class Part>
+bool attempt(Reading& in, const Part& part) {
+  if (!in.problems) return part(), true;
+  try {
+    return part(), true;
+  } catch (const Refusal& refusal) {
+    in.problems->emplace(in.source_of(refusal.document), refusal.offset,
+                         in.error_of(refusal).what());
+  } catch (const InputError& error) {
+    in.problems->emplace(in.sources.size(), 0, error.what());
+  }
+  return false;
+}
+
 // What a scene file may hold, by element: every type with its properties and its reader.
 extern const Named<ObjectType> kIntegratorTypes, kSensorTypes, kFilmTypes, kFilterTypes,
     kSamplerTypes, kBsdfTypes, kShapeTypes, kAreaEmitterTypes, kSceneEmitterTypes;
@@ -48,7 +94,11 @@ extern const Named<ObjectType> kIntegratorTypes, kSensorTypes, kFilmTypes, kFilt
 inline const Property kFilename{kString, "filename", kRequired};
 inline const Property kToWorld{kTransform, "to_world", "identity"};
 
-/// The file that an object names, from the scene file's folder.
+/// A file by its name in a scene: from the folders of <path>s, the last first, or from the scene
+/// file's.
+std::filesystem::path find_file(const std::string& name, const Reading& in);
+
+/// The file that an object names.
 std::filesystem::path file_of(const Object& object, const Reading& in);
 
 /// @return why a film of that size is refused; empty if it is not
@@ -72,6 +122,9 @@ void read_shape(Node node, Reading& in);
 ///
 /// @throws InputError "file:line: why" for what is wrong in the file; else it is the shape's error
 MeshShape read_mesh(const Object& shape, const Reading& in);
+
+/// Refuses planes of the camera that would clip something.
+void check_clipping(const Reading& in);
 
 /// Largest coordinate and length [m]; 1/kMaxLength is the smallest length. Squares of both are
 /// normal numbers in single precision.

@@ -198,7 +198,7 @@ const Named<ObjectType> kBsdfTypes = {
 };
 
 std::uint32_t read_bsdf(Node node, Reading& in) {
-  read_object(node, kBsdfTypes, in);
+  if (!read_object(node, kBsdfTypes, in).is_good()) in.add_bsdf(Lambertian{});  // for its <ref>s
   if (in.contexts.back().depth > kMaxBsdfNesting) {
     refuse(node, "BSDFs are nested deeper than {}", kMaxBsdfNesting);
   }

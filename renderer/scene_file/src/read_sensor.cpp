@@ -11,13 +11,20 @@ const Property kFov{kFloat, "fov", kRequired,
                     Range{.low = 0, .high = 180, .more = " degrees", .open = true}};
 const Property kFovAxis{kString, "fov_axis", "x",
                         one_of({"x", "y", "diagonal", "smaller", "larger"})};
+const Property kNearClip{kFloat, "near_clip", kWithoutEffect, at_least(0)};
+const Property kFarClip{kFloat, "far_clip", kWithoutEffect, kPositive};
+const Property kFocusDistance{kFloat, "focus_distance", kWithoutEffect, kPositive};
 const Nested kFilm{{"film"}, kRequired, between(1, 1)};
 const Nested kSampler{{"sampler"}, "independent", between(0, 1)};
 const Property kWidth{kInteger, "width", "768"};
 const Property kHeight{kInteger, "height", "576"};
 const Property kPixelFormat{kString, "pixel_format", "rgb", one_of({"rgb"})};
 const Property kComponentFormat{kString, "component_format", "float32", one_of({"float32"})};
-const Nested kFilter{{"rfilter"}, kRequired, between(1, 1)};
+const Property kFileFormat{kString, "file_format", "openexr", one_of({"openexr"})};
+const Nested kFilter{
+    {"rfilter"},
+    kRequired,
+    between(1, 1, ": write <rfilter type=\"box\"/>, Mitsuba's default is another")};
 const Property kSampleCount{kInteger, "sample_count", "4", at_least(1)};
 
 void read_path(const Object& object, Reading& in) {
@@ -58,6 +65,9 @@ void read_perspective(const Object& object, Reading& in) {
   read_object(object[kFilm].front(), kFilmTypes, in);
   if (!object.has(kSampler)) read_default(kSampler, kSamplerTypes, in);
   for (const Node sampler : object[kSampler]) read_object(sampler, kSamplerTypes, in);
+  if (object.has(kNearClip)) in.clips.near = {object.at(kNearClip), object[kNearClip]};
+  if (object.has(kFarClip)) in.clips.far = {object.at(kFarClip), object[kFarClip]};
+  if (!in.size) return;  // the film is not good
   const double tangent = std::tan(object[kFov] * pi<double>() / 360);
   const double aspect = static_cast<double>(in.size->width) / in.size->height;
   in.scene.camera = {.origin = to_world.origin,
@@ -76,10 +86,13 @@ const Named<ObjectType> kIntegratorTypes = {
     {"direct", {{}, [](const Object&, Reading& in) { in.scene.integrator = {.max_depth = 2}; }}},
 };
 const Named<ObjectType> kSensorTypes = {
-    {"perspective", {{kFov, kFovAxis, kToWorld, kFilm, kSampler}, read_perspective}},
+    {"perspective",
+     {{kFov, kFovAxis, kToWorld, kFilm, kSampler, kNearClip, kFarClip, kFocusDistance},
+      read_perspective}},
 };
 const Named<ObjectType> kFilmTypes = {
-    {"hdrfilm", {{kWidth, kHeight, kPixelFormat, kComponentFormat, kFilter}, read_film}},
+    {"hdrfilm",
+     {{kWidth, kHeight, kPixelFormat, kComponentFormat, kFileFormat, kFilter}, read_film}},
 };
 const Named<ObjectType> kFilterTypes = {
     {"box", {{}, [](const Object&, Reading&) {}}},  // each pixel averages its own square

@@ -66,8 +66,8 @@ void read_disk(const Object& object, Reading& in) {
 
 void read_obj(const Object& object, Reading& in) {
   object.require(object[kFaceNormals], kFaceNormals,
-                 "smooth normals are not supported: an obj needs "
-                 "<boolean name=\"face_normals\" value=\"true\"/>");
+                 "false, the default, asks for smooth normals, which are not supported: write "
+                 "<boolean name=\"face_normals\" value=\"true\"/> for flat triangles");
   MeshShape mesh = read_mesh(object, in);
   mesh.flip_normals = object[kFlipNormals];
   in.scene.shapes.back().geometry = std::move(mesh);
@@ -90,6 +90,7 @@ bool is_in_range(const Vec3d& point) {
 void read_shape(Node node, Reading& in) {
   in.scene.shapes.emplace_back();
   const Object object = read_object(node, kShapeTypes, in);
+  if (!object.is_known()) return;
   for (const Node emitter : object[kEmitter]) read_object(emitter, kAreaEmitterTypes, in);
   ShapeDescription& shape = in.scene.shapes.back();
   if (!object.has(kBsdf)) {

@@ -70,6 +70,13 @@ void refuse_name(Node at, const std::string& message, std::string_view name,
   refuse(at, "{}{}{}", message, known.empty() ? "" : "; ", name_hint(name, known));
 }
 
+void refuse_unsupported(Node at, const std::string& message, std::string_view name,
+                        const std::vector<std::string>& known) {
+  const std::string advice = advice_for(name);
+  if (advice.empty()) refuse_name(at, message, name, known);
+  refuse(at, "{}: {}", message, advice);
+}
+
 std::string attribute(Node node, const char* name) {
   const pugi::xml_attribute found = node.attribute(name);
   if (!found) refuse(node, "{} needs the attribute \"{}\"", label(node), name);

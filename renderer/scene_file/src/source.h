@@ -23,12 +23,14 @@ inline constexpr std::ptrdiff_t kNowhere = -1;
 
 /// What is wrong with a text file, at a place in it.
 struct Refusal : std::runtime_error {
-  Refusal(std::ptrdiff_t at, const std::string& why) : std::runtime_error(why), offset(at) {}
+  Refusal(std::ptrdiff_t at, const std::string& why, pugi::xml_node its_document = {})
+      : std::runtime_error(why), offset(at), document(its_document) {}
 
   /// "file:line: why", for the user.
   InputError in(const std::filesystem::path& file, std::string_view text) const;
 
-  std::ptrdiff_t offset;  ///< in the text [bytes]; or kNowhere in particular
+  std::ptrdiff_t offset;    ///< in the text [bytes]; or kNowhere in particular
+  pugi::xml_node document;  ///< that the text was parsed to, if it was
 };
 
 /// @throws Refusal at the offset
@@ -60,7 +62,7 @@ std::string label(Node node);
 /// @throws Refusal at the element
 template <class... Args>
 [[noreturn]] void refuse(Node at, fmt::format_string<Args...> why, Args&&... args) {
-  refuse(at.offset_debug(), why, std::forward<Args>(args)...);
+  throw Refusal(at.offset_debug(), fmt::format(why, std::forward<Args>(args)...), at.root());
 }
 
 /// Refuses an element by its label: `<float name="radius">: must be positive`.
@@ -72,6 +74,14 @@ template <class... Args>
 /// Refuses an element for a name in it, with a hint which of the known ones may be meant.
 [[noreturn]] void refuse_name(Node at, const std::string& message, std::string_view name,
                               const std::vector<std::string>& known);
+
+/// What to write in place of something that Mitsuba has and we do not; empty where nothing is
+/// known.
+std::string advice_for(std::string_view name);
+
+/// Refuses an element for what Mitsuba may have, with advice or a hint.
+[[noreturn]] void refuse_unsupported(Node at, const std::string& message, std::string_view name,
+                                     const std::vector<std::string>& known);
 
 /// Value of an attribute that must be there.
 std::string attribute(Node node, const char* name);
@@ -106,7 +116,7 @@ const T& look_up(const Named<T>& things, std::string_view name, Node at,
   for (const auto& [known, thing] : things) {
     if (known == name) return thing;
   }
-  refuse_name(at, message, name, names_of(things));
+  refuse_unsupported(at, message, name, names_of(things));
 }
 
 }  // namespace plumbline::renderer

@@ -185,7 +185,9 @@ bool parse_boolean(Node at, std::string_view text, const Range& /*range*/) {
 std::string parse_string(Node at, std::string_view text, const Range& range) {
   const std::vector<std::string>& known = range.choices;
   if (known.empty() || contains(known, text)) return std::string(text);
-  fail(at, "{} is not supported; supported: {}", in_quotes(text), range.text());
+  const std::string advice = advice_for(text);
+  fail(at, "{} is not supported; {}", in_quotes(text),
+       advice.empty() ? "supported: " + range.text() : advice);
 }
 
 Vec3d parse_vector(Node at, std::string_view text, const Range& range) {
@@ -196,6 +198,14 @@ Vec3d parse_vector(Node at, std::string_view text, const Range& range) {
 }
 
 Rgbd parse_rgb(Node at, std::string_view text, const Range& range) {
+  if (text.find('#') != std::string_view::npos) {
+    fail(at, "{} is not a number: write linear ones, each (c / 255)^2.2 or so of the sRGB byte c",
+         in_quotes(text));
+  }
+  const bool is_constant = trimmed(text).find_first_of(":, \t\r\n") == std::string_view::npos;
+  if (at.name() == std::string_view("spectrum") && !is_constant) {
+    fail(at, "only one number, which is grey, is supported: write <rgb> with the linear colour");
+  }
   const Vec3d v = parse_vector(at, text, range);
   return {v.x, v.y, v.z};
 }

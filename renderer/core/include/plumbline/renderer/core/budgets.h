@@ -40,6 +40,8 @@ inline constexpr std::array<double, 10> kExrRatios = {1,    64, 1033, 1033,  512
 /// Of a scene file with those that it includes, and of all that parameters put into them. The
 /// largest by hand have a few hundred kilobytes; the parser takes five times as much.
 inline constexpr std::size_t kMaxSceneBytes = std::size_t{16} << 20;
+/// Files that a scene includes, and how many within each other: people split a scene into a dozen.
+inline constexpr std::size_t kMaxIncludes = 256, kMaxIncludeNesting = 8;
 /// Of a value that parameters were put into: a matrix has a few hundred bytes, a path 4096 at most.
 /// Parameters of parameters multiply with every line, so each is held to it before it grows.
 inline constexpr std::size_t kMaxValueBytes = std::size_t{64} << 10;
