@@ -324,6 +324,15 @@ TEST(CheckScene, FindsWhatIsWrongInSeveralFiles) {
             (std::vector<std::string>{"scene.xml:4", "part.xml:2", "part.xml:3"}));
 }
 
+TEST(CheckScene, OfAFileWithManyProblemsTellsAThousand) {
+  // Each costs a search for its line, up to there.
+  std::string body;
+  for (int i = 0; i < 20'000; ++i) body += "<shap/>\n";
+  const ScratchDirectory directory;
+  EXPECT_EQ(renderer::check_scene(directory.write("scene.xml", scene_with(body))).size(),
+            renderer::kMaxProblems);
+}
+
 TEST(CheckScene, OfAFileThatIsNoXmlSaysSo) {
   const ScratchDirectory directory;
   EXPECT_EQ(renderer::check_scene(directory.write("scene.xml", "<scene")).size(), 1u);

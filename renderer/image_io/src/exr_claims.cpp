@@ -47,7 +47,7 @@ Header open_header(const std::filesystem::path& path) {
   options.alloc_fn = allocate;
   options.free_fn = std::free;
   // For each attribute or channel: itself, its name, its value, a list.
-  allocations_left = 4 * (kMaxExrAttributes + kMaxExrChannels);
+  allocations_left = std::size_t{4} * (kMaxExrAttributes + kMaxExrChannels);
   exr_context_t context = nullptr;
   const exr_result_t result = exr_start_read(&context, path.c_str(), &options);
   Header header(context, [](exr_context_t open) { exr_finish(&open); });

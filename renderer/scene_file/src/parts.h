@@ -79,10 +79,13 @@ bool attempt(Reading& in, const Part& part) {
   try {
     return part(), true;
   } catch (const Refusal& refusal) {
+    if (in.problems->size() == kMaxProblems) return false;
     in.problems->emplace(in.source_of(refusal.document), refusal.offset,
                          in.error_of(refusal).what());
   } catch (const InputError& error) {
-    in.problems->emplace(in.sources.size(), 0, error.what());
+    if (in.problems->size() < kMaxProblems) {
+      in.problems->emplace(in.sources.size(), 0, error.what());
+    }
   }
   return false;
 }

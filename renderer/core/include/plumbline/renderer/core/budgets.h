@@ -45,6 +45,8 @@ inline constexpr std::size_t kMaxIncludes = 256, kMaxIncludeNesting = 8;
 /// Of a value that parameters were put into: a matrix has a few hundred bytes, a path 4096 at most.
 /// Parameters of parameters multiply with every line, so each is held to it before it grows.
 inline constexpr std::size_t kMaxValueBytes = std::size_t{64} << 10;
+/// What is found wrong in a scene at once: more is not read, and each costs a search for its line.
+inline constexpr std::size_t kMaxProblems = 1000;
 /// Scenes have six levels; both are read by recursion.
 inline constexpr int kMaxElementNesting = 32;
 /// No element takes more than five; they are compared pairwise.
