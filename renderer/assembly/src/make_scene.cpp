@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include <plumbline/renderer/core/scene/geometry.h>
+#include <plumbline/renderer/placement/placement.h>
 
 namespace plumbline::renderer {
 namespace {
@@ -56,11 +58,11 @@ Bounds bounds_of(const std::vector<ShapeDescription>& shapes) {
   return grow.bounds;
 }
 
-/// Turns a description into the buffers, moving everything by −center on the way.
+/// Turns a description into the buffers, moving and scaling everything on the way.
 class SceneBuilder {
  public:
-  SceneBuilder(SceneGeometry& geometry, const Vec3d& center)
-      : geometry_(geometry), center_(center) {}
+  SceneBuilder(SceneGeometry& geometry, const Placement& placement)
+      : geometry_(geometry), placement_(placement) {}
 
   void add(const ShapeDescription& shape) {
     shape_ = &shape;
@@ -69,7 +71,8 @@ class SceneBuilder {
   }
 
   void add(const PointDescription& point) {
-    add_light(PointLight{local(point.position), rgb_cast<float>(point.intensity)});
+    add_light(PointLight{local(point.position),
+                         rgb_cast<float>(point.intensity * sqr(placement_.scale))});
     ++group_;
   }
 
@@ -89,14 +92,21 @@ class SceneBuilder {
   }
 
   void operator()(const SphereShape& s) {
-    const Sphere sphere{local(s.center), static_cast<float>(s.radius)};
-    geometry_.spheres.push_back(sphere);
-    add_primitive(kSpheres, s.flip_normals, [&](const Rgbf& radiance) {
+    const Sphere sphere{local(s.center), static_cast<float>(s.radius * placement_.scale)};
+    const bool exact = add_exact({s.center, s.radius});
+    if (!exact) geometry_.spheres.push_back(sphere);
+    add_primitive(exact ? kExact : kSpheres, s.flip_normals, [&](const Rgbf& radiance) {
       return SphereLight{sphere.center, sphere.radius, s.flip_normals, radiance};
     });
   }
 
   void operator()(const RectangleShape& s) {
+    if (add_exact({ExactShape::Outline::parallelogram, s.origin, s.edge_u, s.edge_v})) {
+      const Vec3f o = local(s.origin), u = scaled(s.edge_u), v = scaled(s.edge_v);
+      return add_primitive(kExact, s.flip_normals, [&](const Rgbf& radiance) {
+        return rectangle_light(o, u, v, s.flip_normals, radiance);
+      });
+    }
     const auto first = static_cast<std::uint32_t>(geometry_.vertices.size());
     for (const Vec3d& corner :
          {s.origin, s.origin + s.edge_u, s.origin + s.edge_u + s.edge_v, s.origin + s.edge_v}) {
@@ -108,22 +118,19 @@ class SceneBuilder {
       const Vec3f o = geometry_.vertices[first];
       const Vec3f u = geometry_.vertices[first + 1] - o;
       const Vec3f v = geometry_.vertices[first + 3] - o;
-      return RectangleLight{o,
-                            u,
-                            v,
-                            facing(s.flip_normals) * normalize(cross(u, v)),
-                            radiance,
-                            shape_->light_by_solid_angle,
-                            shape_->light_two_sided};
+      return rectangle_light(o, u, v, s.flip_normals, radiance);
     });
   }
 
   void operator()(const DiskShape& s) {
-    const Disk disk{local(s.center), static_cast<float>(s.radius)};
+    const Disk disk{local(s.center), static_cast<float>(s.radius * placement_.scale)};
     const Vec3f normal = vec_cast<float>(s.normal);
-    geometry_.disks.push_back(disk);
-    geometry_.disk_normals.push_back(normal);
-    add_primitive(kDisks, false, [&](const Rgbf& radiance) {
+    const bool exact = add_exact(surface_of(s));
+    if (!exact) {
+      geometry_.disks.push_back(disk);
+      geometry_.disk_normals.push_back(normal);
+    }
+    add_primitive(exact ? kExact : kDisks, false, [&](const Rgbf& radiance) {
       return DiskLight{disk.center, normal, disk.radius, radiance};
     });
   }
@@ -132,15 +139,20 @@ class SceneBuilder {
     const auto first = static_cast<std::uint32_t>(geometry_.vertices.size());
     for (const Vec3d& v : s.vertices) geometry_.vertices.push_back(local(v));
     for (const Triangle& t : s.triangles) {
+      const Vec3d &a = s.vertices[t[0]], ab = s.vertices[t[1]] - a, ac = s.vertices[t[2]] - a;
+      if (add_exact({ExactShape::Outline::triangle, a, ab, ac})) {
+        add_primitive(kExact, s.flip_normals, [&](const Rgbf& radiance) {
+          return triangle_light(local(a), scaled(ab), scaled(ac), s.flip_normals, radiance);
+        });
+        continue;
+      }
       const Triangle moved{t[0] + first, t[1] + first, t[2] + first};
       geometry_.triangles.push_back(moved);
       add_primitive(kTriangles, s.flip_normals, [&](const Rgbf& radiance) {
         const Vec3f v0 = geometry_.vertices[moved[0]];
         const Vec3f e1 = geometry_.vertices[moved[1]] - v0;
         const Vec3f e2 = geometry_.vertices[moved[2]] - v0;
-        return TriangleLight{v0,       e1,
-                             e2,       facing(s.flip_normals) * normalize(cross(e1, e2)),
-                             radiance, shape_->light_by_solid_angle};
+        return triangle_light(v0, e1, e2, s.flip_normals, radiance);
       });
     }
   }
@@ -148,7 +160,33 @@ class SceneBuilder {
  private:
   static float facing(bool flip_normals) { return flip_normals ? -1.0f : 1.0f; }
 
-  Vec3f local(const Vec3d& p) const { return vec_cast<float>(p - center_); }
+  Vec3f local(const Vec3d& p) const {
+    return vec_cast<float>((p - placement_.center) * placement_.scale);
+  }
+  Vec3f scaled(const Vec3d& v) const { return vec_cast<float>(v * placement_.scale); }
+
+  RectangleLight rectangle_light(const Vec3f& o, const Vec3f& u, const Vec3f& v, bool flip,
+                                 const Rgbf& radiance) const {
+    const Vec3f normal = facing(flip) * normalize(cross(u, v));
+    return {o, u, v, normal, radiance, shape_->light_by_solid_angle, shape_->light_two_sided};
+  }
+
+  TriangleLight triangle_light(const Vec3f& v0, const Vec3f& e1, const Vec3f& e2, bool flip,
+                               const Rgbf& radiance) const {
+    const Vec3f normal = facing(flip) * normalize(cross(e1, e2));
+    return {v0, e1, e2, normal, radiance, shape_->light_by_solid_angle};
+  }
+
+  /// Counts a surface, and adds it if it is one of those that have to be exact.
+  bool add_exact(const ExactShape& surface) {
+    const auto found = placement_.exact.find(surface_++);
+    if (found == placement_.exact.end()) return false;
+    const auto& [number, first] = *found;
+    exact_indices_.emplace(number, geometry_.exact.size());
+    geometry_.exact.push_back(surface.moved(placement_.center, placement_.scale));
+    if (first != number) geometry_.exact.back().lay_onto(geometry_.exact[exact_indices_.at(first)]);
+    return true;
+  }
 
   template <class MakeLight>
   void add_primitive(GeometryId id, bool flip_normals, const MakeLight& make_light) {
@@ -167,7 +205,9 @@ class SceneBuilder {
   }
 
   SceneGeometry& geometry_;
-  Vec3d center_;
+  const Placement& placement_;
+  std::size_t surface_ = 0;                           // number of the next one
+  std::map<std::size_t, std::size_t> exact_indices_;  // in the geometry, by number
   const ShapeDescription* shape_ = nullptr;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> groups_;  // number of the shape that each light belongs to
@@ -179,17 +219,20 @@ class SceneBuilder {
 Scene make_scene(const SceneDescription& description) {
   if (!description.bsdfs) throw std::invalid_argument("a scene needs a table of BSDFs");
   const Bounds bounds = bounds_of(description.shapes);
-  const Vec3d center = bounds.center();
+  const Placement placement =
+      place({description.shapes, description.points, description.camera, description.file},
+            bounds.center());
   SceneParts parts;
   parts.geometry = std::make_unique<SceneGeometry>();
-  SceneBuilder builder(*parts.geometry, center);
+  SceneBuilder builder(*parts.geometry, placement);
   for (const ShapeDescription& shape : description.shapes) builder.add(shape);
   for (const PointDescription& point : description.points) builder.add(point);
   parts.geometry->build();
   parts.environment = builder.add_environment(description);
-  parts.lights = builder.take_lights(description.light_selection, bounds.radius());
+  parts.lights =
+      builder.take_lights(description.light_selection, bounds.radius() * placement.scale);
   parts.bsdfs = description.bsdfs;
-  parts.camera = Camera(description.camera, center);
+  parts.camera = Camera(description.camera, placement.center, placement.scale);
   parts.shape_count = description.shapes.size();
   return Scene(std::move(parts));
 }

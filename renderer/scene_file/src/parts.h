@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -56,6 +58,16 @@ struct Reading {
   std::map<std::string, std::uint32_t> bsdfs_by_id = {};
   std::optional<std::uint32_t> default_bsdf = {};             ///< of shapes without one
   std::vector<std::pair<std::size_t, Node>> references = {};  ///< shapes with their <ref>s
+  std::ptrdiff_t at = 0;                                      ///< up to where lines are counted
+  std::size_t line = 1;                                       ///< there
+
+  /// Of elements in the order of the file: the text is gone through once.
+  std::size_t line_of(Node node) {
+    const auto from = text.begin() + at, to = text.begin() + node.offset_debug();
+    line += static_cast<std::size_t>(std::count(from, to, '\n'));
+    at = node.offset_debug();
+    return line;
+  }
 
   /// Which of the sources an element or a refusal is of.
   std::size_t source_of(Node document) const;
@@ -132,6 +144,10 @@ void check_clipping(const Reading& in);
 /// Largest coordinate and length [m]; 1/kMaxLength is the smallest length. Squares of both are
 /// normal numbers in single precision.
 inline constexpr double kMaxLength = 1e18;
+
+/// Largest distance of a shape from the origin of the file, in its own sizes: 1e-5 of its size is
+/// what double precision rounds there.
+inline constexpr double kMaxDistance = 1e11;
 
 /// Whether single precision can work with a point.
 bool is_in_range(const Vec3d& point);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "parts.h"
@@ -23,6 +24,15 @@ void check_length(const Object& object, const PropertyRow& property, double leng
                  kMaxLength);
 }
 
+/// Double precision has to tell the shape's own points apart from where it stands.
+void check_digits(const Object& object, const PropertyRow& property, const Vec3d& center,
+                  double size) {
+  object.require(length(center) <= kMaxDistance * size, property,
+                 "is {:.2g} times its own size away from the origin: double precision keeps its "
+                 "shape up to {:g} times",
+                 length(center) / size, kMaxDistance);
+}
+
 /// Normals map by the inverse transpose: a mirroring keeps which side of space the front faces,
 /// while edge × edge changes sign.
 bool mirrors(const Affine& to_world) { return to_world.determinant() < 0; }
@@ -35,6 +45,7 @@ void read_sphere(const Object& object, Reading& in) {
                            object[kFlipNormals]};
   check_point(object, kCenter, sphere.center);
   check_length(object, kRadius, sphere.radius);
+  check_digits(object, kCenter, sphere.center, sphere.radius);
   in.scene.shapes.back().geometry = sphere;
 }
 
@@ -48,6 +59,7 @@ void read_rectangle(const Object& object, Reading& in) {
   }
   check_length(object, kToWorld, 2 * length(m.x));
   check_length(object, kToWorld, 2 * length(m.y));
+  check_digits(object, kToWorld, m.origin, std::min(length(m.x), length(m.y)));
   in.scene.shapes.back().geometry = RectangleShape{m.point({-1, -1, 0}), m.x * 2.0, m.y * 2.0,
                                                    object[kFlipNormals] != mirrors(m)};
 }
@@ -59,6 +71,7 @@ void read_disk(const Object& object, Reading& in) {
                  "would make an ellipse: scale a disk alike along x and y");
   check_point(object, kToWorld, m.origin);
   check_length(object, kToWorld, length(m.x));
+  check_digits(object, kToWorld, m.origin, length(m.x));
   const Vec3d normal = normalize(cross(normalize(m.x), normalize(m.y)));
   in.scene.shapes.back().geometry =
       DiskShape{m.origin, object[kFlipNormals] != mirrors(m) ? -normal : normal, length(m.x)};
@@ -69,6 +82,12 @@ void read_obj(const Object& object, Reading& in) {
                  "false, the default, asks for smooth normals, which are not supported: write "
                  "<boolean name=\"face_normals\" value=\"true\"/> for flat triangles");
   MeshShape mesh = read_mesh(object, in);
+  Vec3d low = mesh.vertices.front(), high = low;
+  for (const Vec3d& v : mesh.vertices) {
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  check_digits(object, kFilename, (low + high) * 0.5, length(high - low) / 2);
   mesh.flip_normals = object[kFlipNormals];
   in.scene.shapes.back().geometry = std::move(mesh);
 }
@@ -93,6 +112,8 @@ void read_shape(Node node, Reading& in) {
   if (!object.is_known()) return;
   for (const Node emitter : object[kEmitter]) read_object(emitter, kAreaEmitterTypes, in);
   ShapeDescription& shape = in.scene.shapes.back();
+  shape.line = in.line_of(node);
+  shape.label = label(node);
   if (!object.has(kBsdf)) {
     if (!in.default_bsdf) {
       in.default_bsdf = static_cast<std::uint32_t>(in.bsdfs->size());

@@ -33,6 +33,13 @@ SurfacePoint point_of_disk(const Disk& disk, const Vec3d& raw, const Vec3f& norm
   return {position, normal, plane_magnitude(position, disk.center, normal)};
 }
 
+/// As exact as a point in single precision can be.
+SurfacePoint point_of_exact(const ExactShape& shape, const Ray& ray, float facing) {
+  const ExactShape::Point p = shape.point(ray, shape.distance(ray));
+  const Vec3f position = vec_cast<float>(p.position);
+  return {position, vec_cast<float>(p.normal) * facing, max_norm(position)};
+}
+
 RTCRay embree_ray(const Ray& ray) {
   RTCRay r{};
   r.org_x = ray.origin.x;
@@ -62,6 +69,10 @@ void SceneGeometry::attach(GeometryId id, RTCGeometryType type, RTCFormat format
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, format, items, 0, item_size,
                              item_count);
   if (more) more(geometry);
+  attach(id, geometry);
+}
+
+void SceneGeometry::attach(GeometryId id, RTCGeometry geometry) {
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene_, geometry, id);
   rtcReleaseGeometry(geometry);
@@ -105,6 +116,7 @@ void SceneGeometry::build() {
            rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3,
                                       disk_normals.data(), 0, sizeof(Vec3f), disk_normals.size());
          });
+  if (!exact.empty()) attach(kExact, make_exact_geometry(device_, exact));
   rtcCommitScene(scene_);
   check_device();
   find_normals();
@@ -132,6 +144,8 @@ SurfaceHit SceneGeometry::surface_hit(const Ray& ray, const PrimitiveHit& hit) c
     point = point_of_plane(corners(hit.kind, hit.index), hit.u, hit.v, primitive.normal);
   } else if (hit.kind == kSpheres) {
     point = point_of_sphere(spheres[hit.index], raw, primitive.facing);
+  } else if (hit.kind == kExact) {
+    point = point_of_exact(exact[hit.index], ray, primitive.facing);
   } else {
     point = point_of_disk(disks[hit.index], raw, primitive.normal);
   }

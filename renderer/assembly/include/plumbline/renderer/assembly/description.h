@@ -1,13 +1,10 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <plumbline/renderer/core/bsdf/bsdf_table.h>
@@ -15,53 +12,11 @@
 #include <plumbline/renderer/core/math.h>
 #include <plumbline/renderer/core/scene/camera.h>
 #include <plumbline/renderer/core/scene/scene.h>
+#include <plumbline/renderer/placement/shapes.h>
 
 /// What a scene file says, in double and in world space: the parser's output and the input of
 /// `make_scene`.
 namespace plumbline::renderer {
-
-/// Normals point outwards, or inwards with `flip_normals`. The front is where the normal points.
-struct SphereShape {
-  Vec3d center;
-  double radius = 1;  ///< [m], > 0 and finite
-  bool flip_normals = false;
-};
-
-/// Parallelogram origin + s·edge_u + t·edge_v, (s, t) in [0,1]²; front side along edge_u × edge_v,
-/// or against it with `flip_normals`.
-struct RectangleShape {
-  Vec3d origin, edge_u, edge_v;  ///< edges perpendicular (the loader refuses shear)
-  bool flip_normals = false;
-};
-
-/// Flat disk; front side along `normal` (flips are already applied).
-struct DiskShape {
-  Vec3d center;
-  Vec3d normal;       ///< unit
-  double radius = 1;  ///< [m]
-};
-
-/// Triangles with geometric normals: front side along (v1 − v0) × (v2 − v0), or against it with
-/// `flip_normals`.
-struct MeshShape {
-  std::vector<Vec3d> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`, in range
-  bool flip_normals = false;
-};
-
-struct ShapeDescription {
-  std::variant<SphereShape, RectangleShape, DiskShape, MeshShape> geometry;
-  std::uint32_t bsdf = 0;             ///< index into SceneDescription::bsdfs
-  std::optional<Rgbd> radiance;       ///< emission from the front side [W/(m² sr)]
-  bool light_by_solid_angle = false;  ///< how a rectangle's or mesh's emission is sampled
-  bool light_two_sided = false;       ///< a rectangle's other side emits alike
-};
-
-/// A light without surface, alike in all directions.
-struct PointDescription {
-  Vec3d position;
-  Rgbd intensity;  ///< [W/sr]
-};
 
 /// A disk of light infinitely far away, on top of the constant environment.
 struct SunDescription {
@@ -97,9 +52,13 @@ struct SceneDescription {
 };
 
 /// All geometry is moved in double so that the centre of its bounding box is the origin, and only
-/// then rounded to float: a scene at 1e5 keeps the digits that it would otherwise lose.
+/// then rounded to float: a scene at 1e5 keeps the digits that it would otherwise lose. Where its
+/// details would still be lost, the camera is the origin; where its lengths are far from a metre,
+/// it is scaled by a power of two; and what single precision cannot hold even so is traced in
+/// double (ExactShape).
 ///
-/// @throws InputError where Embree refuses the geometry, std::invalid_argument without BSDFs
+/// @throws InputError naming the shapes that do not fit into one picture in single precision, or
+///         where Embree refuses the geometry; std::invalid_argument without BSDFs
 Scene make_scene(const SceneDescription& description);
 
 }  // namespace plumbline::renderer

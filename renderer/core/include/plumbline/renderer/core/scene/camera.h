@@ -20,10 +20,11 @@ class Camera {
   Camera() = default;
 
   /// @param scene_center  what the scene was moved by; the camera moves with it
-  Camera(const CameraDescription& description, const Vec3d& scene_center)
+  /// @param scale         what it was scaled by then
+  Camera(const CameraDescription& description, const Vec3d& scene_center, double scale = 1)
       : width_(description.width),
         height_(description.height),
-        origin_(vec_cast<float>(description.origin - scene_center)),
+        origin_(vec_cast<float>((description.origin - scene_center) * scale)),
         forward_(vec_cast<float>(description.forward)) {
     const double tan_y = description.tan_half_fov_x * description.height / description.width;
     // Per pixel of film, so that the ray direction below is one multiply-add per axis.

@@ -11,6 +11,7 @@
 
 #include <plumbline/renderer/core/math.h>
 #include <plumbline/renderer/core/scene/embree.h>
+#include <plumbline/renderer/core/scene/exact_shape.h>
 #include <plumbline/renderer/core/scene/surface_hit.h>
 
 namespace plumbline::renderer {
@@ -43,7 +44,7 @@ struct Primitive {
 };
 
 /// Embree geometry ids, in the order of attachment.
-enum GeometryId : unsigned { kSpheres, kRectangles, kDisks, kTriangles, kGeometryKinds };
+enum GeometryId : unsigned { kSpheres, kRectangles, kDisks, kTriangles, kExact, kGeometryKinds };
 
 /// Where Embree says that a ray meets a primitive.
 struct PrimitiveHit {
@@ -89,6 +90,7 @@ class SceneGeometry {
   std::vector<Vec3f> vertices;        ///< of rectangles and triangles
   std::vector<Rectangle> rectangles;  ///< indices of o, o + u, o + u + v, o + v
   std::vector<Triangle> triangles;
+  std::vector<ExactShape> exact;  ///< in the order in which the scene names them
   std::array<std::vector<Primitive>, kGeometryKinds> primitives;
 
   SceneGeometry() = default;
@@ -115,6 +117,7 @@ class SceneGeometry {
   RTCScene embree_scene() const { return scene_; }
 
  private:
+  void attach(GeometryId id, RTCGeometry geometry);
   void attach(GeometryId id, RTCGeometryType type, RTCFormat format, const void* items,
               std::size_t item_size, std::size_t item_count,
               const std::function<void(RTCGeometry)>& more);
