@@ -167,7 +167,7 @@ const std::vector<Refusal> kBodies = {
      R"(3: <rgb name="reflectance">: must lie between 0 and 1: more would create energy)"},
     {"NegativeRadiance",
      "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"-1\"/></emitter>",
-     R"(3: <rgb name="radiance">: must lie between 0 and 1e+30)"},
+     R"(3: <rgb name="radiance">: must lie between 0 and 1e+15)"},
     {"MaxDepthBelowMinusOne",
      "<integrator type=\"path\"><integer name=\"max_depth\" value=\"-2\"/></integrator>",
      R"(3: <integer name="max_depth">: must be at least -1, which is unlimited)"},

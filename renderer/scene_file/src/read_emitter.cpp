@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <plumbline/renderer/image_io/exr.h>
 
 #include "parts.h"
@@ -5,7 +7,10 @@
 namespace plumbline::renderer {
 namespace {
 
-constexpr double kMaxRadiance = 1e30;  // sums of it stay finite in single precision
+constexpr double kMaxRadiance =
+    1e15;  // squares of ten thousand times it are finite in single precision
+constexpr double kMaxIntensity = 1e30;  // sums of it are
+constexpr double kDarkest = 1e-30;      // products of less with what a BSDF reflects may vanish
 
 const Property kRadiance{kRgb, "radiance", kRequired, between(0, kMaxRadiance)};
 const Property kSampling{kString, "sampling", "area", one_of({"area", "solid_angle"})};
@@ -13,7 +18,7 @@ const Property kTwoSided{kBoolean, "two_sided", "false"};
 const Property kScale{kFloat, "scale", "1", between(0, 1e6)};
 const Property kCompensation{kBoolean, "mis_compensation", "false"};
 const Property kPosition{kPoint, "position", "0", between(-kMaxLength, kMaxLength)};
-const Property kIntensity{kRgb, "intensity", kRequired, between(0, kMaxRadiance)};
+const Property kIntensity{kRgb, "intensity", kRequired, between(0, kMaxIntensity)};
 const Property kDirection{kVector, "direction", kRequired};
 // The default is that of the disk of the sun as seen from the earth.
 const Property kHalfAngle{kFloat, "half_angle", "0.2665", between(1e-3, 90, " degrees")};
@@ -24,8 +29,19 @@ void allow_one(const Object& object, bool is_there) {
   refuse(object.node(), "a scene has one {} <emitter> only", attribute(object.node(), "type"));
 }
 
+/// Single precision would make black of it, or a variance that is not finite.
+void check_dark(const Object& object, const Property<Rgbd>& property) {
+  const Rgbd& c = object[property];
+  for (const double channel : {c.r, c.g, c.b}) {
+    object.require(channel == 0 || channel >= kDarkest, property,
+                   "is neither 0 nor at least {:g}, and would be black in single precision",
+                   kDarkest);
+  }
+}
+
 void read_area(const Object& object, Reading& in) {
   ShapeDescription& shape = in.scene.shapes.back();
+  check_dark(object, kRadiance);
   shape.radiance = object[kRadiance];
   shape.light_two_sided = object[kTwoSided];
   shape.light_by_solid_angle = object[kSampling] == "solid_angle";
@@ -39,15 +55,18 @@ void read_area(const Object& object, Reading& in) {
 
 void read_constant(const Object& object, Reading& in) {
   allow_one(object, in.scene.environment.has_value());
+  check_dark(object, kRadiance);
   in.scene.environment = object[kRadiance];
 }
 
 void read_point(const Object& object, Reading& in) {
-  in.scene.points.push_back({object[kPosition], object[kIntensity]});
+  check_dark(object, kIntensity);
+  in.scene.points.push_back({object[kPosition], object[kIntensity], in.line_of(object.node())});
 }
 
 void read_sun(const Object& object, Reading& in) {
   allow_one(object, in.scene.sun.has_value());
+  check_dark(object, kRadiance);
   const Vec3d travels = unit_vector(object.at(kDirection), object[kDirection],
                                     "must have a length that is neither zero nor infinite");
   in.scene.sun = {-travels, object[kHalfAngle] * pi<double>() / 180, object[kRadiance]};
@@ -63,8 +82,9 @@ Image read_map(const Object& object, const Reading& in) {
   }
   for (const Rgbf& p : image.pixels) {
     for (const float channel : {p.r, p.g, p.b}) {
-      if (channel >= 0 && static_cast<double>(channel) <= kMaxRadiance) continue;
-      fail(object.at(kFilename), "{} holds a pixel that does not lie between 0 and {:g}",
+      const double scaled = static_cast<double>(channel) * std::max(object[kScale], 1.0);
+      if (channel >= 0 && scaled <= kMaxRadiance) continue;
+      fail(object.at(kFilename), "{} holds a pixel that, scaled, does not lie between 0 and {:g}",
            file.string(), kMaxRadiance);
     }
   }

@@ -27,6 +27,9 @@ const Nested kFilter{
     between(1, 1, ": write <rfilter type=\"box\"/>, Mitsuba's default is another")};
 const Property kSampleCount{kInteger, "sample_count", "4", at_least(1)};
 
+/// Tangent of the smallest angle of a pixel: 16 times the rounding of a direction.
+constexpr double kFinestPixel = 0x1p-20;
+
 void read_path(const Object& object, Reading& in) {
   in.scene.integrator = {object[kMaxDepth], object[kRrDepth]};
 }
@@ -70,6 +73,11 @@ void read_perspective(const Object& object, Reading& in) {
   if (!in.size) return;  // the film is not good
   const double tangent = std::tan(object[kFov] * pi<double>() / 360);
   const double aspect = static_cast<double>(in.size->width) / in.size->height;
+  const double pixel = 2 * horizontal_tangent(object[kFovAxis], tangent, aspect) / in.size->width;
+  object.require(pixel >= kFinestPixel, kFov,
+                 "makes pixels {:.2g} radians wide: single precision tells directions apart down "
+                 "to {:.2g}",
+                 pixel, kFinestPixel);
   in.scene.camera = {.origin = to_world.origin,
                      .left = normalize(to_world.x),
                      .up = normalize(to_world.y),
