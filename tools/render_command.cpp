@@ -20,6 +20,7 @@
 #include "command.h"
 #include "output_file.h"
 #include "progress.h"
+#include "render_numbers.h"
 #include "render_values.h"
 #include "scene_argument.h"
 
@@ -190,7 +191,6 @@ void print_done(const std::string& output, const reports::RenderRecord& record) 
              output, record.mean[0], record.mean[1], record.mean[2], record.samples_per_pixel,
              record.seconds, rays / record.seconds * 1e-6);
   if (record.rejected > 0) fmt::print(", {} rejected", record.rejected);
-  if (record.non_finite > 0) fmt::print(", {} NOT FINITE", record.non_finite);
   fmt::print("\n");
 }
 
@@ -221,7 +221,8 @@ int run_render(const RenderArguments& arguments) {
     json->finish();
   }
   print_done(arguments.output, record);
-  return kExitFine;
+  std::fflush(stdout);  // before what goes to standard error
+  return check_numbers(scene, options, result) ? kExitFine : kExitUnexpectedVerdict;
 }
 
 void add_options(options::Command& command, RenderArguments& arguments) {

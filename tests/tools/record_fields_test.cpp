@@ -36,12 +36,15 @@ struct Rendered {
   Fields record;
   renderer::Image image;
   double seconds = 0;
+  std::string error;  ///< what it said on standard error
 
-  Rendered(const ScratchDirectory& scratch, const std::string& scene, const std::string& options) {
+  Rendered(const ScratchDirectory& scratch, const std::string& scene, const std::string& options,
+           int exit_code = 0) {
     scratch.write("scene.xml", "<scene version=\"3.0.0\">" + scene + "</scene>");
     const Outcome outcome = run_plumbline(
         scratch.path(), "render scene.xml -o image.exr --json record.json " + options);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    error = outcome.err;
     record = Json::parse(scratch.read("record.json")).get<Fields>();
     image = renderer::read_exr(scratch / "image.exr");
     // The one field that nobody knows: it is there, and not negative.
@@ -149,7 +152,10 @@ TEST(RenderFields, CountSamplesThatCannotBeMadeOrAreNotFinite) {
   // seen, a square of 2e-5 m, it is 3e39 at least.
   const Rendered infinite(scratch, above + R"(<shape type="rectangle"/><emitter type="point">
       <point name="position" x="0" y="0" z="1e-5"/><rgb name="intensity" value="1e30"/></emitter>)",
-                          "--strategy light --max-depth 2 --spp 3 --size 2x2");
+                          "--strategy light --max-depth 2 --spp 3 --size 2x2", 1);
+  EXPECT_EQ(infinite.error,
+            "plumbline: 12 samples were NOT FINITE and left out of the image, which is written: "
+            "the first is sample 0 of pixel (0, 0)\n");
   EXPECT_EQ(infinite.record.at("non_finite"), 2 * 2 * 3);
   EXPECT_EQ(infinite.image.metadata.at("non_finite"), "12");
   EXPECT_EQ(infinite.image.count.at(0), 0);

@@ -1,10 +1,13 @@
 #include <plumbline/renderer/assembly/render.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <utility>
 
 #include <plumbline/renderer/batched/batch.h>
 #include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/core/render/tiles.h>
 
 #include "allocated.h"
 #include "batched_bsdfs.h"
@@ -31,6 +34,31 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
   }
   if (options.allocation) return render_allocated(scene, options);
   return {run_render_loop(scene.camera(), options, pixel_samplers(scene, options)), {}};
+}
+
+std::optional<NonFinite> first_non_finite(const Scene& scene, const RenderOptions& options,
+                                          const RenderResult& result) {
+  const auto& pixels = result.film.pixels();
+  const auto found =
+      std::find_if(pixels.begin(), pixels.end(), [](const auto& p) { return p.non_finite > 0; });
+  if (found == pixels.end()) return std::nullopt;
+  const auto pixel = static_cast<std::size_t>(found - pixels.begin());
+  const auto width = static_cast<std::size_t>(result.film.width());
+  NonFinite place{static_cast<int>(pixel % width), static_cast<int>(pixel / width), {}};
+  if (options.allocation) return place;
+  const SamplerFactory make_sampler = pixel_samplers(scene, options);  // keeps what they share
+  // By a tile, so that denormal numbers are zero as they were then.
+  TileThreads(1).run(1, 1, 1, [&](const Tile&) {
+    const std::unique_ptr<PixelSampler> sampler = make_sampler();
+    for (std::uint32_t s = 0; s < result.samples_per_pixel && !place.sample; ++s) {
+      PixelMoments moments;
+      sampler->sample(place.x, place.y, pixel * options.replicates + s % options.replicates,
+                      s / options.replicates, moments);
+      sampler->finish();
+      if (moments.non_finite > 0) place.sample = s;
+    }
+  });
+  return place;
 }
 
 }  // namespace plumbline::renderer

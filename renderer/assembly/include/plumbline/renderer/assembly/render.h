@@ -52,4 +52,16 @@ SamplerFactory pixel_samplers(const Scene& scene, const RenderOptions& options);
 ///         an allocation that the other options do not fit
 RenderResult render(const Scene& scene, const RenderOptions& options);
 
+struct NonFinite {
+  int x = 0, y = 0;                     ///< pixel, from the upper left one
+  std::optional<std::uint32_t> sample;  ///< from 0; not told of allocated ones
+};
+
+/// The first sample of an image that was left out because it was not finite, by pixels row by row:
+/// the samples of that pixel are drawn again.
+///
+/// @param scene, options  that `result` was rendered with
+std::optional<NonFinite> first_non_finite(const Scene& scene, const RenderOptions& options,
+                                          const RenderResult& result);
+
 }  // namespace plumbline::renderer
