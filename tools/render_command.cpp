@@ -276,9 +276,10 @@ void add_options(options::Command& command, RenderArguments& arguments) {
             arguments.options.backend =
                 parse_name("--backend", "backend", renderer::kBackends, text);
           },
-          fmt::format("One of {}: many paths side by side, or one after the other; the same image. "
-                      "batched without it",
-                      fmt::join(names_of(renderer::kBackends), ", ")))
+          fmt::format(
+              "One of {}: many paths side by side, or one after the other; the same image but for "
+              "rounding (docs/conventions.md). batched without it",
+              fmt::join(names_of(renderer::kBackends), ", ")))
       .type("NAME");
   command
       .add_text(

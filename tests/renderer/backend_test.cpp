@@ -51,7 +51,7 @@ TEST(Backends, GiveTheSameBitsOnFlatSurfaces) {
   for (const char* file :
        {"bench/scenes/cornell", "analytic/scenes/lights_1000", "analytic/scenes/furnace_cube",
         "analytic/scenes/triangle_light", "analytic/scenes/point_glossy",
-        "analytic/scenes/sidewalk", "analytic/scenes/phong_polygon"}) {
+        "analytic/scenes/sidewalk", "analytic/scenes/phong_polygon", "analytic/scenes/thin_gap"}) {
     for_each_way(file, expect_same_bits);
   }
 }
