@@ -10,7 +10,7 @@
 namespace plumbline::tools {
 namespace {
 
-constexpr double kLargest = std::numeric_limits<float>::max();
+constexpr auto kLargest = static_cast<double>(std::numeric_limits<float>::max());
 
 bool check_samples(const renderer::Scene& scene, const renderer::RenderOptions& options,
                    const renderer::RenderResult& result) {

@@ -14,7 +14,7 @@ constexpr double kMissed = std::numeric_limits<double>::infinity();
 
 double first_after_start(double a, double b) {
   const double near = std::min(a, b), far = std::max(a, b);
-  constexpr double kStart = kNearest;
+  constexpr auto kStart = static_cast<double>(kNearest);
   return near > kStart ? near : (far > kStart ? far : kMissed);
 }
 
@@ -47,7 +47,7 @@ void ExactShape::lay_onto(const ExactShape& other) {
     *this = other;
     return;
   }
-  const double side = dot(normal_, other.normal_) < 0 ? -1 : 1;
+  const double side = dot(normal_, other.normal_) < 0 ? -1.0 : 1.0;
   normal_ = other.normal_ * side;
   height_ = other.height_ * side;
 }
@@ -79,7 +79,8 @@ double ExactShape::distance(const Ray& ray) const {
   const bool inside = outline_ == Outline::disk       ? s * s + r * r <= 1
                       : outline_ == Outline::triangle ? s >= 0 && r >= 0 && s + r <= 1
                                                       : s >= 0 && r >= 0 && s <= 1 && r <= 1;
-  return inside ? t : kMissed;
+  if (!inside) return kMissed;
+  return t;
 }
 
 ExactShape::Point ExactShape::point(const Ray& ray, double distance) const {
