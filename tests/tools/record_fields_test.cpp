@@ -161,5 +161,20 @@ TEST(RenderFields, CountSamplesThatCannotBeMadeOrAreNotFinite) {
   EXPECT_EQ(infinite.image.count.at(0), 0);
 }
 
+TEST(RenderFields, SayWhereAVarianceIsBeyondSinglePrecision) {
+  // The same light a metre away: what arrives is finite, its square is not.
+  const ScratchDirectory scratch;
+  const std::string wide = R"(<sensor type="perspective"><float name="fov" value="90"/>
+      <transform name="to_world"><lookat origin="0 0 1" target="0 0 0" up="0 1 0"/></transform>
+      <film type="hdrfilm"><rfilter type="box"/></film></sensor>)";
+  const Rendered bright(scratch, wide + R"(<shape type="rectangle"/><emitter type="point">
+      <point name="position" x="0" y="0" z="1"/><rgb name="intensity" value="1e30"/></emitter>)",
+                        "--strategy light --max-depth 2 --spp 3 --size 2x2", 1);
+  EXPECT_EQ(bright.record.at("non_finite"), 0);
+  EXPECT_EQ(bright.error,
+            "plumbline: the variance of 4 pixels is beyond what an image holds (3.4e+38) and "
+            "written as infinity: the first is pixel (0, 0)\n");
+}
+
 }  // namespace
 }  // namespace plumbline::tests
