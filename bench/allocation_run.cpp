@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/output/output_file.h>
 #include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/image_io/exr.h>
@@ -126,8 +127,13 @@ void write_map(const AllocationScene& scene, const Scene& built, const std::stri
   record.height = image.height;
   record.samples_per_pixel = kIterations * kIterationSamples;
   record.image = stem.string() + ".exr";
-  write_exr(record.image, image);
-  reports::write_render_record(stem.string() + ".json", record);
+  output::Files files;
+  files.writes("image", record.image).fill([&](const auto& path) { write_exr(path, image); });
+  const std::string json = stem.string() + ".json";
+  files.writes("record", json).fill([&](const auto& path) {
+    write_render_record(path, record, json);
+  });
+  files.finish();
 }
 
 class Experiment {

@@ -60,9 +60,9 @@ void set_allocation(const AllocationArguments& arguments, bool samples_given,
   }
 }
 
-ShareMap::ShareMap(const AllocationArguments& arguments)
+ShareMap::ShareMap(const AllocationArguments& arguments, output::Files& files)
     : file_(arguments.share_map.empty() ? nullptr
-                                        : std::make_unique<OutputFile>(arguments.share_map)),
+                                        : &files.writes("--share-map", arguments.share_map)),
       iterations_(arguments.options.iterations) {}
 
 void ShareMap::write(const renderer::RenderResult& result) const {
@@ -73,8 +73,7 @@ void ShareMap::write(const renderer::RenderResult& result) const {
   for (const float share : final_shares(result, iterations_)) {
     map.pixels.push_back({share, share, share});
   }
-  write_exr(file_->path(), map);
-  file_->finish();
+  file_->fill([&](const auto& path) { write_exr(path, map); });
 }
 
 }  // namespace plumbline::tools

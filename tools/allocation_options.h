@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 
 #include <plumbline/options/options.h>
+#include <plumbline/output/output_file.h>
 #include <plumbline/renderer/assembly/render.h>
-
-#include "output_file.h"
 
 namespace plumbline::tools {
 
@@ -30,15 +28,15 @@ void add_allocation_options(options::Command& command, AllocationArguments& argu
 void set_allocation(const AllocationArguments& arguments, bool samples_given,
                     renderer::RenderOptions& options);
 
-/// The share of BSDF samples that each pixel came to, as a grey image: opened before the render,
-/// written after it. Nothing without --share-map.
+/// The share of BSDF samples that each pixel came to, as a grey image: one of the files before the
+/// render, written after it. Nothing without --share-map.
 class ShareMap {
  public:
-  explicit ShareMap(const AllocationArguments& arguments);
+  ShareMap(const AllocationArguments& arguments, output::Files& files);
   void write(const renderer::RenderResult& result) const;
 
  private:
-  std::unique_ptr<OutputFile> file_;
+  output::OutputFile* file_;
   std::uint32_t iterations_;
 };
 

@@ -6,10 +6,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 #include <plumbline/calibration/experiments.h>
-#include <plumbline/renderer/core/errors.h>
 #include <plumbline/reports/results.h>
 
 #include "command.h"
@@ -65,11 +63,7 @@ void print_row(const std::string& name, const verify::CheckResult& r) {
 
 std::unique_ptr<reports::ResultLog> open_log(const std::string& directory) {
   if (directory.empty()) return nullptr;
-  try {
-    return std::make_unique<reports::ResultLog>(directory, "calibration");
-  } catch (const std::system_error& error) {
-    throw renderer::InputError(error.what());
-  }
+  return std::make_unique<reports::ResultLog>(directory, "calibration");
 }
 
 int run_calibrate(const Arguments& arguments) {

@@ -1,15 +1,16 @@
 #pragma once
 
 #include <plumbline/options/options.h>
+#include <plumbline/output/failure.h>
 
 /// The subcommands of `plumbline`. Each function declares one, and what is to be done when the
 /// command line names it.
 namespace plumbline::tools {
 
-inline constexpr int kExitFine = 0;
-inline constexpr int kExitUnexpectedVerdict = 1;  ///< a check did not give its expected verdict
-inline constexpr int kExitBadInput = 2;           ///< the user's mistake: usage, files, values
-inline constexpr int kExitMachineFailed = 3;      ///< disk full, out of memory
+using output::kExitBadInput;
+using output::kExitFine;
+using output::kExitMachineFailed;
+using output::kExitUnexpectedVerdict;
 
 void add_list_command(options::CommandLine& line);
 void add_render_command(options::CommandLine& line);

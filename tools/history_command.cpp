@@ -14,13 +14,13 @@
 #include <utility>
 #include <vector>
 
+#include <plumbline/output/output_file.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/reports/history.h>
 #include <plumbline/reports/history_report.h>
 
 #include "command.h"
 #include "history_text.h"
-#include "output_file.h"
 
 namespace plumbline::tools {
 namespace {
@@ -128,7 +128,8 @@ int append_run(const HistoryArguments& arguments) {
   require_this_build(results, run.environment);
   // Of a part that was ended in the middle of a line: what it had written counts.
   for (const reports::ReadWarning& warning : results.warnings) {
-    fmt::print(stderr, "plumbline: {}:{}: {}\n", warning.file.string(), warning.line, warning.what);
+    output::tell(
+        fmt::format("plumbline: {}:{}: {}\n", warning.file.string(), warning.line, warning.what));
   }
   for (const std::string& part : arguments.parts) run.parts.push_back(part_of(part));
   run.seed_runs = std::move(results.seed_runs);
@@ -161,9 +162,11 @@ int report_runs(const History& history, const HistoryArguments& arguments) {
       reports::judge_runs(history, chosen_machine(history, arguments), arguments.kind);
   fmt::print("{}", history_changes(record));
   if (!arguments.json.empty()) {
-    const OutputFile file(arguments.json);
-    reports::write_history(file.path(), record);
-    file.finish();
+    output::Files files;
+    files.reads(arguments.file);
+    output::OutputFile& file = files.writes("--json", arguments.json);
+    file.fill([&](const auto& path) { write_history(path, record); });
+    files.finish();
   }
   const bool refuted = std::any_of(
       record.sequences.begin(), record.sequences.end(),

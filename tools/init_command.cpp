@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include <plumbline/output/output_file.h>
 #include <plumbline/renderer/core/errors.h>
 
 #include "command.h"
@@ -63,10 +64,16 @@ int run_init(const InitArguments& arguments) {
   require_room(directory, files);
   fs::create_directories(directory, error);
   if (error) {
-    throw renderer::InputError(directory.string() + ": cannot be made: " + error.message());
+    output::throw_errno(directory.string(), "cannot be made", error.value());
   }
+  output::Files written;
   for (const TemplateFile& file : files) {
-    write(directory / file.name, file.text);
+    written.writes("init", directory / file.name).fill([&](const fs::path& path) {
+      write(path, file.text);
+    });
+  }
+  written.finish();
+  for (const TemplateFile& file : files) {
     fmt::print("{}\n", (directory / file.name).string());
   }
   fmt::print("\nPut your own BSDF in the place of this one. To run it:\n{}", next_steps(arguments));

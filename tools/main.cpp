@@ -1,16 +1,21 @@
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
+#include <cerrno>
+#include <clocale>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
-#include <new>
+#include <locale>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <plumbline/output/failure.h>
+#include <plumbline/output/stop.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/scene_file/nearest_name.h>
 
@@ -29,7 +34,8 @@ constexpr const char* kExamples = R"(Examples:
   plumbline render bench/scenes/cornell.xml -o cornell.exr --seconds 10 --json cornell.json
 
 Exit codes: 0 fine, 1 a check did not give its expected verdict, 2 bad input or usage,
-3 the machine failed (disk full, out of memory).)";
+3 the machine failed (disk full, out of memory, of threads or of files), 128 + N ended by the signal N:
+130 for Ctrl-C, 143 for TERM, 129 for HUP.)";
 
 constexpr const char* kOutputLost = "cannot write to the standard output; is it full?";
 
@@ -42,32 +48,31 @@ void check_command_name(const options::CommandLine& line, const std::string& fir
       fmt::format("there is no command \"{}\"; {}", first, renderer::name_hint(first, known)));
 }
 
-int fail(int exit_code, const char* message) {
-  fmt::print(stderr, "plumbline: {}\n", message);
-  return exit_code;
+int fail(const output::Failure& failure) noexcept {
+  output::tell("plumbline: ");
+  output::tell(failure.what);
+  output::tell("\n");
+  return failure.exit_code;
 }
 
-/// Runs the command and turns what it throws into an exit code.
-int run_command(const options::Run& run) {
-  try {
-    const int exit_code = run();
-    // What was printed must have arrived: a full disk may lie behind the standard output.
-    if (std::fflush(stdout) != 0) return fail(kExitMachineFailed, kOutputLost);
-    return exit_code;
-  } catch (const renderer::InputError& error) {
-    return fail(kExitBadInput, error.what());
-  } catch (const std::invalid_argument& error) {
-    return fail(kExitBadInput, error.what());
-  } catch (const std::bad_alloc&) {
-    return fail(kExitMachineFailed, "out of memory");
-  } catch (const std::exception& error) {
-    return fail(kExitMachineFailed, error.what());
+/// A file that is opened must not become the standard output, and take what is printed.
+void open_standard_files() {
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(file, F_GETFD) == -1 && errno == EBADF && open("/dev/null", O_RDWR) != file) {
+      std::_Exit(kExitMachineFailed);  // and nowhere to say it
+    }
   }
 }
 
-int main_of(int argc, char** argv) {
-  // A file that would outgrow its limit is an error of write(), not a death without a word.
-  std::signal(SIGXFSZ, SIG_IGN);
+void start() {
+  open_standard_files();
+  output::handle_signals();
+  std::setlocale(LC_ALL, "C");  // numbers in files and messages have a point, whoever runs it
+  std::locale::global(std::locale::classic());
+}
+
+/// What the command line asks for.
+int run(int argc, char** argv) {
   options::CommandLine line("Checks Monte Carlo sampling code, around a compact MIS renderer",
                             "plumbline");
   line.add_version(PLUMBLINE_VERSION);
@@ -81,16 +86,25 @@ int main_of(int argc, char** argv) {
   add_init_command(line);
   add_report_command(line);
   add_history_command(line);
-  try {
-    if (argc > 1) check_command_name(line, argv[1]);
-    if (const std::optional<bool> printed = line.parse(argc, argv)) {
-      if (!*printed) return kExitBadInput;
-      return std::cout.flush() ? kExitFine : fail(kExitMachineFailed, kOutputLost);
-    }
-  } catch (const renderer::InputError& error) {
-    return fail(kExitBadInput, error.what());
+  if (argc > 1) check_command_name(line, argv[1]);
+  if (const std::optional<bool> printed = line.parse(argc, argv)) {
+    if (!*printed) return kExitBadInput;
+    if (!std::cout.flush()) throw renderer::MachineError(kOutputLost);
+    return kExitFine;
   }
-  return run_command(line.chosen());
+  const int exit_code = line.chosen()();
+  // What was printed must have arrived: a full disk may lie behind the standard output.
+  if (std::fflush(stdout) != 0) throw renderer::MachineError(kOutputLost);
+  return exit_code;
+}
+
+int main_of(int argc, char** argv) noexcept {
+  try {
+    start();
+    return run(argc, argv);
+  } catch (...) {
+    return fail(output::failure_of(std::current_exception()));
+  }
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #include "progress.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+
+#include <plumbline/output/failure.h>
 
 namespace plumbline::tools {
 namespace {
@@ -18,7 +19,7 @@ Progress::Progress(double seconds, bool has_samples)
     : shown_(isatty(STDERR_FILENO) == 1), has_samples_(has_samples), limit_(seconds) {}
 
 Progress::~Progress() {
-  if (shown_) fmt::print(stderr, "{}", kClearLine);
+  if (shown_) output::tell(kClearLine);
 }
 
 void Progress::update(double done) {
@@ -30,12 +31,11 @@ void Progress::update(double done) {
   if (limit_ > 0) share = std::max(share, elapsed / limit_);
   if (share > 0) {
     share = std::min(share, 1.0);
-    fmt::print(stderr, "{}{:5.1f} %  {:.0f} s left", kClearLine, 100 * share,
-               elapsed * (1 - share) / share);
+    output::tell(fmt::format("{}{:5.1f} %  {:.0f} s left", kClearLine, 100 * share,
+                             elapsed * (1 - share) / share));
   } else {
-    fmt::print(stderr, "{}{:.0f} s so far", kClearLine, elapsed);
+    output::tell(fmt::format("{}{:.0f} s so far", kClearLine, elapsed));
   }
-  std::fflush(stderr);
 }
 
 }  // namespace plumbline::tools

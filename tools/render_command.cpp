@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include <plumbline/output/output_file.h>
 #include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
@@ -18,7 +20,6 @@
 
 #include "allocation_options.h"
 #include "command.h"
-#include "output_file.h"
 #include "progress.h"
 #include "render_numbers.h"
 #include "render_values.h"
@@ -195,12 +196,15 @@ void print_done(const std::string& output, const reports::RenderRecord& record) 
 }
 
 int run_render(const RenderArguments& arguments) {
-  const OutputFile output(arguments.output);
-  const auto json = arguments.json.empty() ? nullptr : std::make_unique<OutputFile>(arguments.json);
-  const ShareMap share_map(arguments.allocation);
+  output::Files files;
+  output::OutputFile& output = files.writes("--output", arguments.output);
+  output::OutputFile* json =
+      arguments.json.empty() ? nullptr : &files.writes("--json", arguments.json);
+  const ShareMap share_map(arguments.allocation, files);
   renderer::SceneDescription description =
       load_scene(scene_path(arguments.scene), parse_definitions(arguments.definitions),
                  parse_size(arguments.size));
+  for (const std::filesystem::path& file : description.files) files.reads(file);
   description.light_selection = arguments.light_selection;
   const renderer::Scene scene = renderer::make_scene(description);
   renderer::RenderOptions options = render_options(arguments, description);
@@ -213,13 +217,12 @@ int run_render(const RenderArguments& arguments) {
   if (!output.is_device()) record.image = arguments.output;
   renderer::Image image = to_image(result.film);
   image.metadata = metadata(record);
-  write_exr(output.path(), image);
-  output.finish();
+  output.fill([&](const auto& path) { write_exr(path, image); });
   share_map.write(result);
   if (json) {
-    reports::write_render_record(json->path(), record);
-    json->finish();
+    json->fill([&](const auto& path) { write_render_record(path, record, json->target()); });
   }
+  files.finish();
   print_done(arguments.output, record);
   std::fflush(stdout);  // before what goes to standard error
   return check_numbers(scene, options, result) ? kExitFine : kExitUnexpectedVerdict;

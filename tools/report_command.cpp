@@ -1,16 +1,16 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <plumbline/analytic/known_scene.h>
+#include <plumbline/output/output_file.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/reports/budgets.h>
@@ -18,7 +18,6 @@
 #include <plumbline/verify/detail/budget.h>
 
 #include "command.h"
-#include "output_file.h"
 
 namespace plumbline::tools {
 namespace {
@@ -41,8 +40,8 @@ reports::PageImage picture(const reports::RenderRecord& record) {
   return result;
 }
 
-/// @throws renderer::BudgetError for a picture that claims more than it can hold, or for more
-///         pixels than a page may show
+/// The pictures of the records. What cannot be read, claims more than it can hold or is more than a
+/// page may show becomes a warning.
 std::vector<reports::PageImage> pictures(reports::Results& results) {
   std::vector<reports::PageImage> images;
   std::uint64_t pixels = 0;
@@ -52,14 +51,13 @@ std::vector<reports::PageImage> pictures(reports::Results& results) {
       images.push_back(picture(record));
       pixels += images.back().rgb.size() / 3;
       if (pixels > reports::kMaxPagePixels) {
+        images.pop_back();
         throw renderer::BudgetError(
-            fmt::format("{}: with it the page has more than {} pixels in its pictures: render "
+            fmt::format("left out: with it the page has more than {} pixels in its pictures: render "
                         "smaller ones, or remove some records",
-                        record.image.string(), reports::kMaxPagePixels));
+                        reports::kMaxPagePixels));
       }
-    } catch (const renderer::BudgetError&) {
-      throw;
-    } catch (const renderer::InputError& error) {
+    } catch (const std::exception& error) {
       results.warnings.push_back({record.image, 0, error.what()});
     }
   }
@@ -112,14 +110,10 @@ void print_summary(const reports::Results& results, const reports::Summary& summ
     if (!check.as_expected()) fmt::print("\n{}\n", verify::describe(check));
   }
   for (const reports::ReadWarning& warning : results.warnings) {
-    fmt::print(stderr, "warning: {}{}: {}\n", warning.file.string(),
-               warning.line == 0 ? std::string() : fmt::format(":{}", warning.line), warning.what);
+    output::tell(fmt::format("warning: {}{}: {}\n", warning.file.string(),
+                             warning.line == 0 ? std::string() : fmt::format(":{}", warning.line),
+                             warning.what));
   }
-}
-
-bool is_machine_failure(const std::error_code& code) {
-  return code == std::errc::no_space_on_device || code == std::errc::io_error ||
-         code == std::error_code(EDQUOT, std::generic_category());
 }
 
 /// Makes the page of a results directory and prints a summary table.
@@ -133,31 +127,33 @@ bool is_machine_failure(const std::error_code& code) {
 /// @return             0; 1 where a check did not give its expected verdict, a record was lost, or
 ///                     there are more checks than max_checks, so that their levels add up to more
 ///                     than the budget
-/// @throws InputError for a directory that holds no results, and an output that cannot be written;
-///         MachineError where the disk is full
+/// @throws InputError for a directory that holds no results, and an output that cannot be written
+///         or is one of the records or pictures; MachineError where the disk is full
 int run_report(const std::filesystem::path& results_dir, const std::filesystem::path& output,
                std::uint64_t max_checks) {
   try {
+    output::Files files;
+    output::OutputFile& page = files.writes("--output", output);
     reports::PageInput input;
     input.results = reports::read_results(results_dir);
+    for (const std::filesystem::path& file : input.results.files) files.reads(file);
+    for (const reports::RenderRecord& record : input.results.renders) files.reads(record.image);
     input.images = pictures(input.results);
     input.answers = known_answers();
-    reports::write_page(input, output);
+    page.fill([&](const auto& path) { write_page(input, path); });
+    files.finish();
     const reports::Summary summary = reports::summarise(input.results);
     print_summary(input.results, summary);
     fmt::print("page: {}\n", output.string());
     if (summary.checks() > max_checks) {
-      fmt::print(stderr,
-                 "plumbline: {} checks, but the error budget is split over {}: the chance of a "
-                 "false alarm is not what it claims to be\n",
-                 summary.checks(), max_checks);
+      output::tell(
+          fmt::format("plumbline: {} checks, but the error budget is split over {}: the chance of "
+                      "a false alarm is not what it claims to be\n",
+                      summary.checks(), max_checks));
       return kExitUnexpectedVerdict;
     }
     return summary.unexpected == 0 && summary.unreadable == 0 ? kExitFine : kExitUnexpectedVerdict;
   } catch (const reports::ResultsError& error) {
-    throw renderer::InputError(error.what());
-  } catch (const std::system_error& error) {
-    if (is_machine_failure(error.code())) throw renderer::MachineError(error.what());
     throw renderer::InputError(error.what());
   }
 }
@@ -180,10 +176,7 @@ void add_report_command(options::CommandLine& line) {
       .type("N");
   command.footer("Example:\n  plumbline report build/release/results -o index.html");
   command.runs([arguments] {
-    const OutputFile page(arguments->page);
-    const int exit_code = run_report(arguments->results, page.path(), arguments->max_checks);
-    page.finish();
-    return exit_code;
+    return run_report(arguments->results, arguments->page, arguments->max_checks);
   });
 }
 

@@ -1,4 +1,4 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <cstdio>
@@ -8,11 +8,11 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <plumbline/exchange/answerer.h>
 #include <plumbline/exchange/self_test.h>
+#include <plumbline/output/output_file.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/reports/results.h>
 #include <plumbline/verify/bsdf.h>
@@ -22,7 +22,6 @@
 
 #include "command.h"
 #include "domain_argument.h"
-#include "output_file.h"
 #include "verify_options.h"
 
 namespace plumbline::tools {
@@ -113,19 +112,25 @@ verify::Report check(const SharedAnswerer& answerer, const reports::VerifyOption
                    : check_without_eval(name, bsdf, options);
 }
 
+constexpr const char* kLogName = "verify";
+
+std::filesystem::path log_of(const std::filesystem::path& results) {
+  return results / (std::string(kLogName) + ".jsonl");
+}
+
 void keep_results(const VerifyArguments& arguments, const verify::Report& report) {
   if (arguments.results.empty()) return;
-  try {
-    reports::ResultLog log(arguments.results, "verify");
-    for (const verify::CheckResult& result : report) log.append(result);
-  } catch (const std::system_error& error) {
-    throw renderer::InputError(error.what());
-  }
+  reports::ResultLog log(arguments.results, kLogName);
+  for (const verify::CheckResult& result : report) log.append(result);
 }
 
 int run_checks(const VerifyArguments& arguments, const reports::VerifyOptionsFile& given) {
-  std::optional<OutputFile> json;
-  if (!arguments.json.empty()) json.emplace(arguments.json);
+  output::Files files;
+  files.reads(arguments.options_file);
+  files.reads(arguments.waivers);
+  if (!arguments.results.empty()) files.reads(log_of(arguments.results));
+  output::OutputFile* json =
+      arguments.json.empty() ? nullptr : &files.writes("--json", arguments.json);
   const verify::BsdfOptions options = bsdf_options(given);  // wrong ones start no program
   const std::vector<verify::Waiver> waivers = read_waivers(arguments.waivers);
   const auto answerer = std::make_shared<exchange::Answerer>(answerer_options(given));
@@ -133,13 +138,13 @@ int run_checks(const VerifyArguments& arguments, const reports::VerifyOptionsFil
   verify::Report report = verify::waive(check(answerer, given), waivers);
   const double seconds = watch.seconds();
   const std::string end = answerer->finish();
-  if (!end.empty()) fmt::print(stderr, "plumbline: {}\n", end);
+  if (!end.empty()) output::tell(fmt::format("plumbline: {}\n", end));
   report.replay = replay_command(given, options.contract.seed);
   for (verify::CheckResult& result : report) result.replay = report.replay;
   keep_results(arguments, report);
   if (json) {
-    reports::write_checks(json->path(), report.results);
-    json->finish();
+    json->fill([&](const auto& path) { reports::write_checks(path, report.results); });
+    files.finish();
   }
   fmt::print("{}\n{} values in {} queries, {:.1f} s\n", report.summary(), answerer->values(),
              answerer->queries(), seconds);
@@ -165,8 +170,6 @@ int run_verify(const VerifyArguments& arguments) {
   try {
     return arguments.self_test ? run_self_test(given) : run_checks(arguments, given);
   } catch (const exchange::AnswererError& error) {
-    throw renderer::InputError(error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
     throw renderer::InputError(error.what());
   }
 }

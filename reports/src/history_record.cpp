@@ -34,7 +34,7 @@ std::string to_json(const HistoryRecord& record) {
 }
 
 void write_history(const std::filesystem::path& path, const HistoryRecord& record) {
-  detail::write_file_atomically(path, to_json(record) + "\n");
+  detail::write_file(path, to_json(record) + "\n");
 }
 
 HistoryRecord parse_history(std::string_view json) {

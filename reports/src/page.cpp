@@ -52,7 +52,7 @@ std::string make_page(const PageInput& input) {
 void write_page(const PageInput& input, const std::filesystem::path& path) {
   const std::string page = make_page(input);
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-  detail::write_file_atomically(path, page);
+  detail::write_file(path, page);
 }
 
 }  // namespace plumbline::reports

@@ -14,17 +14,23 @@ namespace {
 namespace fs = std::filesystem;
 using detail::Json;
 
-/// Every file below the directory that may hold records, in the order of their names.
-std::vector<fs::path> record_files(const fs::path& directory) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(directory)) {
-    const fs::path extension = entry.path().extension();
-    if (entry.is_regular_file() && (extension == ".jsonl" || extension == ".json")) {
-      files.push_back(entry.path());
+/// Adds every file below the directory that may hold records; what cannot be looked at becomes a
+/// warning.
+void find_record_files(const fs::path& directory, Results& results) {
+  std::error_code error;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& path = entry->path();
+    std::error_code unknown;
+    if (entry->is_directory(unknown) && !entry->is_symlink(unknown)) {
+      find_record_files(path, results);
+    } else if (path.extension() == ".jsonl" || path.extension() == ".json") {
+      const bool is_file = entry->is_regular_file(unknown);
+      if (unknown) results.warnings.push_back({path, 0, unknown.message()});
+      if (is_file) results.files.push_back(path);
     }
   }
-  std::sort(files.begin(), files.end());
-  return files;
+  if (error) results.warnings.push_back({directory, 0, error.message()});
 }
 
 void add_environment(std::vector<RunEnvironment>& environments, RunEnvironment environment) {
@@ -139,8 +145,10 @@ Results read_results(const fs::path& directory) {
     throw ResultsError(directory.string() + ": not a directory");
   }
   Results results;
+  find_record_files(directory, results);
+  std::sort(results.files.begin(), results.files.end());
   std::size_t records = 0;
-  for (const fs::path& file : record_files(directory)) {
+  for (const fs::path& file : results.files) {
     try {
       const std::string text = detail::read_file(file);
       if (file.extension() == ".jsonl") {

@@ -12,13 +12,14 @@ std::filesystem::path directory_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_render_record(const std::filesystem::path& path, const RenderRecord& record) {
+void write_render_record(const std::filesystem::path& path, const RenderRecord& record,
+                         const std::filesystem::path& target) {
   RenderRecord stored = record;
   if (!record.image.empty()) {
-    stored.image =
-        std::filesystem::relative(std::filesystem::absolute(record.image), directory_of(path));
+    stored.image = std::filesystem::relative(std::filesystem::absolute(record.image),
+                                             directory_of(target.empty() ? path : target));
   }
-  detail::write_file_atomically(path, to_json(stored) + "\n");
+  detail::write_file(path, to_json(stored) + "\n");
 }
 
 RenderRecord read_render_record(const std::filesystem::path& path) {

@@ -60,7 +60,7 @@ void write_checks(const std::filesystem::path& path,
                   const std::vector<verify::CheckResult>& results) {
   std::string text = to_json(current_environment()) + "\n";
   for (const verify::CheckResult& result : results) text += to_json(result) + "\n";
-  detail::write_file_atomically(path, text);
+  detail::write_file(path, text);
 }
 
 }  // namespace plumbline::reports

@@ -85,7 +85,7 @@ TEST_F(Exr, LayersThatAnImageLacksStayEmpty) {
   EXPECT_TRUE(back.count.empty());
 }
 
-TEST_F(Exr, AFailedWriteLeavesTheOldFileAndNoRemains) {
+TEST_F(Exr, WhatIsNoRegularFileIsNotWrittenOver) {
   const auto folder = folder_ / "missing";
   EXPECT_THROW(write_exr(folder / "image.exr", small_image()), InputError);
   EXPECT_FALSE(std::filesystem::exists(folder));

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 namespace plumbline::tests {
 namespace {
@@ -58,19 +59,53 @@ std::string run_on_terminal(const std::filesystem::path& directory, const std::s
   return shown;
 }
 
+Running::Running(const std::filesystem::path& directory, const std::string& arguments)
+    : child_(fork()) {
+  if (child_ < 0) throw std::runtime_error("cannot fork");
+  if (child_ > 0) return;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(number, SIG_DFL);
+  // exec: the signal must meet the command, not the shell before it.
+  become_shell(directory, "exec '" + kCommand + "' " + arguments + " >" +
+                              (outputs_ / "out").string() + " 2>" + (outputs_ / "err").string());
+}
+
+Running::~Running() {
+  if (child_ <= 0) return;
+  signal(SIGKILL);
+  waitpid(child_, nullptr, 0);
+}
+
+bool Running::waits_for(const std::function<bool()>& condition) {
+  siginfo_t info{};
+  const auto runs = [&] {
+    return waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == 0;
+  };
+  constexpr int kTries = 60'000;
+  for (int i = 0; i < kTries && runs(); ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+void Running::signal(int number) const { kill(child_, number); }
+
+Outcome Running::ended() {
+  int status = 0;
+  waitpid(std::exchange(child_, 0), &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), outputs_.read("out"),
+          outputs_.read("err")};
+}
+
 bool run_and_kill(const std::filesystem::path& directory, const std::string& arguments,
                   double seconds) {
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("cannot fork");
-  // exec: the signal must meet the command, not the shell before it.
-  if (child == 0) become_shell(directory, "exec '" + kCommand + "' " + arguments + " >/dev/null");
+  Running running(directory, arguments);
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-  const bool running = waitpid(child, nullptr, WNOHANG) == 0;
-  if (running) {
-    kill(child, SIGKILL);
-    waitpid(child, nullptr, 0);
-  }
-  return running;
+  const bool is_running = running.waits_for([] { return true; });
+  running.signal(SIGKILL);
+  running.ended();
+  return is_running;
 }
 
 }  // namespace plumbline::tests

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <plumbline_tests/support.h>
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 /// The command `plumbline` as a person or a script runs it.
@@ -21,6 +23,28 @@ Outcome run_plumbline(const std::filesystem::path& directory, const std::string&
 
 /// Everything that `plumbline ARGUMENTS` shows on a terminal.
 std::string run_on_terminal(const std::filesystem::path& directory, const std::string& arguments);
+
+/// `plumbline ARGUMENTS` that goes on by itself; killed, if it still runs, at the end.
+class Running {
+ public:
+  Running(const std::filesystem::path& directory, const std::string& arguments);
+  ~Running();
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  /// Waits until the condition holds, a minute at most.
+  /// @return whether it came to hold while the command ran
+  bool waits_for(const std::function<bool()>& condition);
+
+  void signal(int number) const;
+
+  /// Waits for the end. `Outcome::exit_code` is −signal where one ended it.
+  Outcome ended();
+
+ private:
+  ScratchDirectory outputs_;
+  pid_t child_;
+};
 
 /// Starts `plumbline ARGUMENTS`, kills it after that time, and waits for its end.
 /// @return whether it was still running

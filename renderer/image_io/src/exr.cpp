@@ -7,13 +7,11 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 #include <new>
 #include <system_error>
-#include <utility>
 
 #include <plumbline/renderer/core/budgets.h>
 
@@ -100,22 +98,6 @@ void check_target(const std::filesystem::path& path) {
   }
 }
 
-/// Removes the unfinished file unless the write came to its end.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(std::filesystem::path path) : path_(std::move(path)) {}
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// Room for more pixels, by at least as much as there is: in step with what has been decoded, for
 /// a file may claim what it does not hold.
 template <class T>
@@ -179,18 +161,16 @@ Image to_image(const Film& film) {
 
 void write_exr(const std::filesystem::path& path, const Image& image) {
   check_target(path);
-  const TemporaryFile temporary(path.string() + ".part-" + std::to_string(getpid()));
-  CheckedStream stream(temporary.path());
+  CheckedStream stream(path);
   if (!stream.opened()) throw InputError(path.string() + ": cannot be written to");
   try {
     write_pixels(stream, image);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw MachineError(path.string() + ": " + error.what());
   }
   if (!stream.close()) throw MachineError(path.string() + ": writing failed; is the disk full?");
-  std::error_code error;
-  std::filesystem::rename(temporary.path(), path, error);
-  if (error) throw InputError(path.string() + ": " + error.message());
 }
 
 Image read_exr(const std::filesystem::path& path) {

@@ -227,6 +227,7 @@ const Source& add_source(const std::filesystem::path& file, Reading& in) {
   in.sources.push_back(std::make_unique<Source>());
   Source& source = *in.sources.back();
   source.file = file;
+  in.scene.files.push_back(file);
   source.text = read_text_file(file, kMaxSceneBytes - in.bytes);
   in.bytes += source.text.size();
   try {

@@ -136,7 +136,7 @@ void read_shape(Node node, Reading& in);
 /// The triangles of the obj file that a shape names, moved to world space.
 ///
 /// @throws InputError "file:line: why" for what is wrong in the file; else it is the shape's error
-MeshShape read_mesh(const Object& shape, const Reading& in);
+MeshShape read_mesh(const Object& shape, Reading& in);
 
 /// Refuses planes of the camera that would clip something.
 void check_clipping(const Reading& in);

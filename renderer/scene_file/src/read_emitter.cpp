@@ -72,8 +72,9 @@ void read_sun(const Object& object, Reading& in) {
   in.scene.sun = {-travels, object[kHalfAngle] * pi<double>() / 180, object[kRadiance]};
 }
 
-Image read_map(const Object& object, const Reading& in) {
+Image read_map(const Object& object, Reading& in) {
   const std::filesystem::path file = file_of(object, in);
+  in.scene.files.push_back(file);
   Image image;
   try {
     image = read_exr(file);

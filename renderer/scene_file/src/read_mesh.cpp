@@ -127,8 +127,9 @@ MeshShape read_obj(std::string_view text, const Affine& to_world) {
 
 }  // namespace
 
-MeshShape read_mesh(const Object& shape, const Reading& in) {
+MeshShape read_mesh(const Object& shape, Reading& in) {
   const std::filesystem::path file = file_of(shape, in);
+  in.scene.files.push_back(file);
   std::string text;
   MeshShape mesh;
   try {

@@ -84,6 +84,9 @@ void SceneGeometry::check_device() const {
       return;
     case RTC_ERROR_OUT_OF_MEMORY:
       throw std::bad_alloc();
+    case RTC_ERROR_UNKNOWN:
+      throw MachineError(
+          "Embree failed for a reason of its own; is the number of threads limited?");
     default:
       throw InputError("Embree refuses the scene (error " + std::to_string(error) +
                        "): are its coordinates within the range of float?");

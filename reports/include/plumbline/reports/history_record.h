@@ -87,7 +87,7 @@ struct HistoryRecord {
 ///         is not on it
 std::string to_json(const HistoryRecord& record);
 
-/// Writes the record as a JSON file, atomically.
+/// Writes the record as a JSON file.
 ///
 /// @throws FormatError, std::system_error where the file cannot be written
 void write_history(const std::filesystem::path& path, const HistoryRecord& record);

@@ -30,8 +30,7 @@ struct PageInput {
 /// @throws std::invalid_argument for an image whose size and data disagree
 std::string make_page(const PageInput& input);
 
-/// Writes make_page(input) to `path`. The file appears whole or not at all: an old page survives a
-/// failure. Missing parent directories are made.
+/// Writes make_page(input) to `path`. Missing parent directories are made.
 ///
 /// @throws std::system_error where it cannot be written
 void write_page(const PageInput& input, const std::filesystem::path& path);

@@ -41,11 +41,13 @@ std::string to_json(const RenderRecord& record);
 /// @throws FormatError
 RenderRecord parse_render_record(std::string_view json);
 
-/// Writes the record as a JSON file, atomically. `record.image` is taken relative to the working
-/// directory and stored relative to the file, so that a results directory can be moved.
+/// Writes the record as a JSON file. `record.image` is taken relative to the working directory and
+/// stored relative to the file, so that a results directory can be moved.
 ///
+/// @param target  where the file will be, if not at `path`
 /// @throws std::system_error where the file cannot be written
-void write_render_record(const std::filesystem::path& path, const RenderRecord& record);
+void write_render_record(const std::filesystem::path& path, const RenderRecord& record,
+                         const std::filesystem::path& target = {});
 
 /// The record, its image path made relative to the working directory again.
 ///

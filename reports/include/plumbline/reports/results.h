@@ -61,8 +61,8 @@ class ResultLog {
   int file_ = -1;
 };
 
-/// Writes a file of records with the environment that they were made in: what ResultLog makes, but
-/// whole or not at all, in the place of what was there.
+/// Writes a file of records with the environment that they were made in: what ResultLog makes, in
+/// the place of what was there.
 ///
 /// @throws std::system_error where it cannot be written
 void write_checks(const std::filesystem::path& path,
@@ -93,6 +93,7 @@ struct Results {
   std::vector<HistoryRecord> histories;
   std::vector<RunEnvironment> environments;  ///< one per build and machine, the latest of each
   std::vector<ReadWarning> warnings;
+  std::vector<std::filesystem::path> files;  ///< that may hold records: all that was read
 };
 
 /// Reads every `*.jsonl` line and every `*.json` document below the directory that states a

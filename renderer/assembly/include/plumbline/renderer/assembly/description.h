@@ -38,6 +38,7 @@ struct IntegratorDescription {
 
 struct SceneDescription {
   std::filesystem::path file;
+  std::vector<std::filesystem::path> files;       ///< all that were read: this, meshes, images
   std::map<std::string, std::string> parameters;  ///< every <default> with the value in force
   CameraDescription camera;
   IntegratorDescription integrator;
