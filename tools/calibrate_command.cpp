@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include <plumbline/calibration/experiments.h>
+#include <plumbline/output/stop.h>
 #include <plumbline/reports/results.h>
 
 #include "command.h"
@@ -66,15 +68,39 @@ std::unique_ptr<reports::ResultLog> open_log(const std::string& directory) {
   return std::make_unique<reports::ResultLog>(directory, "calibration");
 }
 
+/// The mark of a table that lacks rows, which the page shows as what is not as expected.
+verify::CheckResult incomplete(int rows, int signal) {
+  verify::CheckResult mark;
+  mark.kind = verify::CheckKind::calibration;
+  mark.subject = "calibration/incomplete";
+  mark.verdict = verify::Verdict::inconclusive;
+  mark.reason = fmt::format("stopped by signal {} after {} rows", signal, rows);
+  return mark;
+}
+
+/// A row takes minutes at night, and knows nothing of signals: it is left where it is.
+[[noreturn]] void end_incomplete(int rows, reports::ResultLog* log) {
+  const int signal = output::stop_signal();
+  const verify::CheckResult mark = incomplete(rows, signal);
+  if (log != nullptr) log->append(mark);
+  fmt::print("\nINCOMPLETE: {}\n", mark.reason);
+  std::fflush(stdout);
+  std::_Exit(output::exit_code_of_signal(signal));
+}
+
 int run_calibrate(const Arguments& arguments) {
   const calibration::Effort effort{arguments.full, arguments.seed};
   const std::unique_ptr<reports::ResultLog> log = open_log(arguments.results);
+  const output::StopRequests stops_at_signals;
   std::string table;
   int rows = 0, unexpected = 0;
   for (const calibration::Experiment& experiment : calibration::experiments()) {
     const std::string name = experiment.table + "/" + experiment.name;
     if (name.find(arguments.only) == std::string::npos) continue;
-    const verify::CheckResult result = calibration::run(experiment, effort);
+    verify::CheckResult result;
+    if (!output::finishes_before_stop([&] { result = calibration::run(experiment, effort); })) {
+      end_incomplete(rows, log.get());
+    }
     if (experiment.table != table) print_heading(table = experiment.table);
     print_row(experiment.name, result);
     if (log) log->append(result);
@@ -100,7 +126,11 @@ void add_calibrate_command(options::CommandLine& line) {
       .type("TEXT");
   command.add("--results", arguments->results, "Directory to add the rows to, for report")
       .type("DIR");
-  command.footer("Examples:\n  plumbline calibrate\n  plumbline calibrate --full --only coverage");
+  command.footer(
+      "Examples:\n  plumbline calibrate\n  plumbline calibrate --full --only coverage\n\nCtrl-C, "
+      "TERM "
+      "and HUP end it with the rows that are there and a mark that others are missing; exit code "
+      "128 + signal.");
   command.runs([arguments] { return run_calibrate(*arguments); });
 }
 

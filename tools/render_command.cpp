@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -9,7 +10,9 @@
 #include <thread>
 #include <vector>
 
+#include <plumbline/output/failure.h>
 #include <plumbline/output/output_file.h>
+#include <plumbline/output/stop.h>
 #include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
@@ -19,6 +22,7 @@
 #include <plumbline/reports/render_record.h>
 
 #include "allocation_options.h"
+#include "checkpoint_options.h"
 #include "command.h"
 #include "progress.h"
 #include "render_numbers.h"
@@ -41,6 +45,7 @@ struct RenderArguments {
   std::optional<std::uint32_t> replicates;
   renderer::LightSelection light_selection = renderer::LightSelection::uniform;
   AllocationArguments allocation;
+  CheckpointArguments checkpoint;
   std::optional<std::uint32_t> samples;
   std::optional<int> max_depth;
   std::string size;
@@ -195,12 +200,35 @@ void print_done(const std::string& output, const reports::RenderRecord& record) 
   fmt::print("\n");
 }
 
+/// Where a signal ended the render, for the header and for the user.
+std::string stopped_at(const renderer::RenderOptions& options,
+                       const renderer::RenderResult& result) {
+  if (options.samples_per_pixel >= kMaxSamples) {
+    return fmt::format("at {} samples per pixel", result.samples_per_pixel);
+  }
+  return fmt::format("at {} of {} samples per pixel", result.samples_per_pixel,
+                     options.samples_per_pixel);
+}
+
+bool has_samples(const renderer::Film& film) {
+  return std::any_of(film.pixels().begin(), film.pixels().end(),
+                     [](const auto& pixel) { return pixel.count > 0 || pixel.non_finite > 0; });
+}
+
+int report_stop(const Checkpoints& checkpoints, const std::string& where) {
+  const int signal = output::stop_signal();
+  output::tell(fmt::format("plumbline: stopped by signal {} {}; {}\n", signal, where,
+                           checkpoints.how_to_resume()));
+  return output::exit_code_of_signal(signal);
+}
+
 int run_render(const RenderArguments& arguments) {
   output::Files files;
   output::OutputFile& output = files.writes("--output", arguments.output);
   output::OutputFile* json =
       arguments.json.empty() ? nullptr : &files.writes("--json", arguments.json);
   const ShareMap share_map(arguments.allocation, files);
+  Checkpoints checkpoints(arguments.checkpoint, files);
   renderer::SceneDescription description =
       load_scene(scene_path(arguments.scene), parse_definitions(arguments.definitions),
                  parse_size(arguments.size));
@@ -208,24 +236,30 @@ int run_render(const RenderArguments& arguments) {
   description.light_selection = arguments.light_selection;
   const renderer::Scene scene = renderer::make_scene(description);
   renderer::RenderOptions options = render_options(arguments, description);
+  checkpoints.attach(description, options);
   print_found(arguments, description, scene, options);
   Progress progress(options.seconds, options.samples_per_pixel < kMaxSamples);
   if (progress.shown()) options.progress = [&](double done) { progress.update(done); };
+  const output::StopRequests stops_at_signals;
   const renderer::RenderResult result = render(scene, options);
+  if (!has_samples(result.film)) return report_stop(checkpoints, "before the first sample");
 
   reports::RenderRecord record = make_record(arguments, options, result);
   if (!output.is_device()) record.image = arguments.output;
   renderer::Image image = to_image(result.film);
   image.metadata = metadata(record);
+  if (result.stopped) image.metadata["stopped"] = stopped_at(options, result);
   output.fill([&](const auto& path) { write_exr(path, image); });
-  share_map.write(result);
+  if (!result.stopped) share_map.write(result);  // the shares of a pixel are those at its end
   if (json) {
     json->fill([&](const auto& path) { write_render_record(path, record, json->target()); });
   }
   files.finish();
   print_done(arguments.output, record);
   std::fflush(stdout);  // before what goes to standard error
-  return check_numbers(scene, options, result) ? kExitFine : kExitUnexpectedVerdict;
+  const bool usable = check_numbers(scene, options, result);
+  if (result.stopped) return report_stop(checkpoints, stopped_at(options, result));
+  return usable ? kExitFine : kExitUnexpectedVerdict;
 }
 
 void add_options(options::Command& command, RenderArguments& arguments) {
@@ -336,10 +370,17 @@ void add_render_command(options::CommandLine& line) {
   options::Command command = line.add_command("render", "Render a scene to an OpenEXR image");
   add_options(command, *arguments);
   add_allocation_options(command, arguments->allocation);
+  add_checkpoint_options(command, arguments->checkpoint);
   command.footer(R"(Examples:
   plumbline render furnace_cube -o cube.exr --strategy one-sample --heuristic balance --spp 1024
   plumbline render sphere_light -o light.exr -D radius=0.1 -D height=2 --error 0.01
-  plumbline render scene.xml -o /dev/null --seconds 30 --threads 1 --json timing.json)");
+  plumbline render scene.xml -o /dev/null --seconds 30 --threads 1 --json timing.json
+  plumbline render scene.xml -o long.exr --spp 65536 --checkpoint long.checkpoint
+
+Ctrl-C, TERM and HUP stop a render within a second and write the image of the samples that are there; their number
+stands in its header. A second signal stops at once. Exit code 128 + signal: 130, 143, 129.
+A checkpoint is gone on from with the scene, settings, seed and version that it was kept of alone; --spp may be
+higher.)");
   command.runs([arguments] { return run_render(*arguments); });
 }
 

@@ -2,8 +2,9 @@
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
-#include <chrono>
+#include <atomic>
 #include <cmath>
+#include <utility>
 
 #include <plumbline/renderer/assembly/direct.h>
 #include <plumbline/renderer/core/errors.h>
@@ -35,11 +36,20 @@ void check_allocation(const RenderOptions& options) {
   }
 }
 
+RenderState first_state(const Camera& camera, const RenderOptions& options) {
+  if (options.interruptions.from) return *options.interruptions.from;
+  RenderState state;
+  state.film = Film(camera.width(), camera.height());
+  state.drawn.resize(state.film.pixels().size());
+  state.bsdf_counts.resize(state.drawn.size() * options.allocation->iterations);
+  return state;
+}
+
 void allocate_pixel(const Scene& scene, const RenderOptions& options, int x, int y,
-                    RenderResult& result, PathCounters& counters) {
-  const std::size_t index = result.film.index(x, y);
-  PixelMoments& pixel = result.film.pixels()[index];
-  std::uint32_t* bsdf_counts = &result.bsdf_counts[index * options.allocation->iterations];
+                    RenderState& state, PathCounters& counters) {
+  const std::size_t index = state.film.index(x, y);
+  PixelMoments& pixel = state.film.pixels()[index];
+  std::uint32_t* bsdf_counts = &state.bsdf_counts[index * options.allocation->iterations];
   Pcg32 random(options.seed, index, 0);
   Rgbf emission;
   const auto draw = [&](std::size_t technique) {
@@ -56,6 +66,7 @@ void allocate_pixel(const Scene& scene, const RenderOptions& options, int x, int
     pixel.add(emission + rgb_cast<float>(reflected));
   };
   allocate_samples(*options.allocation, options.samples_per_pixel, draw, record);
+  state.drawn[index] = options.samples_per_pixel;
 }
 
 }  // namespace
@@ -74,23 +85,34 @@ std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterat
 
 RenderResult render_allocated(const Scene& scene, const RenderOptions& options) {
   check_allocation(options);
-  const auto start = std::chrono::steady_clock::now();
   const Camera& camera = scene.camera();
-  RenderResult result{{Film(camera.width(), camera.height()), {}, options.samples_per_pixel, 0},
-                      {}};
-  result.bsdf_counts.resize(result.film.pixels().size() * options.allocation->iterations);
-  oneapi::tbb::enumerable_thread_specific<PathCounters> counters;
-  constexpr std::size_t kTileSide = 8;  // pixels are dear: small tiles end together
-  ProgressReport progress(options.progress, result.film.pixels().size());
-  TileThreads(options.threads)
-      .run(camera.width(), camera.height(), kTileSide, [&](const Tile& tile) {
-        tile.for_each_pixel(
-            [&](int x, int y) { allocate_pixel(scene, options, x, y, result, counters.local()); });
-        progress.advance(tile.pixels());
+  RenderState state = first_state(camera, options);
+  ProgressReport progress(options.progress, state.film.pixels().size());
+  TileThreads threads(options.threads);
+  bool stopped = false;
+  // Pixel by pixel: a slice takes as many of those that are missing as its time is enough for, and
+  // one at least.
+  while (!stopped && state.least_drawn() < options.samples_per_pixel) {
+    constexpr std::size_t kTileSide = 8;  // pixels are dear: small tiles end together
+    const Slice slice(options.interruptions);
+    std::atomic<bool> has_begun = false;
+    oneapi::tbb::enumerable_thread_specific<PathCounters> counters;
+    threads.run(camera.width(), camera.height(), kTileSide, [&](const Tile& tile) {
+      tile.for_each_pixel([&](int x, int y) {
+        if (state.drawn[state.film.index(x, y)] > 0) return;
+        if (slice.is_over() && has_begun.exchange(true)) return;
+        allocate_pixel(scene, options, x, y, state, counters.local());
+        progress.advance(1);
       });
-  for (const PathCounters& of_thread : counters) result.counters += of_thread;
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
+    });
+    for (const PathCounters& of_thread : counters) state.counters += of_thread;
+    state.seconds += slice.seconds();
+    const bool is_done = state.least_drawn() >= options.samples_per_pixel;
+    stopped = slice.stops() && !is_done;
+    if (options.interruptions.keep) options.interruptions.keep(state, stopped || is_done);
+  }
+  return {{std::move(state.film), state.counters, state.least_drawn(), state.seconds, stopped},
+          std::move(state.bsdf_counts)};
 }
 
 }  // namespace plumbline::renderer

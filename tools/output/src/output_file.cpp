@@ -100,10 +100,11 @@ OutputFile::OutputFile(const fs::path& path, bool synced) : given_(path), synced
 
 OutputFile::~OutputFile() = default;
 
-void OutputFile::fill(const std::function<void(const fs::path&)>& write) const {
+void OutputFile::fill(const std::function<void(const fs::path&)>& write) {
   const std::string written = temporary_->path().string();
   try {
     write(temporary_->path());
+    is_filled_ = true;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
@@ -174,7 +175,9 @@ OutputFile& Files::writes(const std::string& option, const fs::path& path) {
 }
 
 void Files::finish() {
-  for (const Written& written : written_) written.file->finish();
+  for (const Written& written : written_) {
+    if (written.file->is_filled()) written.file->finish();
+  }
 }
 
 }  // namespace plumbline::output

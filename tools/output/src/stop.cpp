@@ -5,10 +5,14 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <climits>
 #include <csignal>
 #include <cstddef>
 #include <cstring>
+#include <future>
+#include <thread>
+#include <utility>
 
 namespace plumbline::output {
 namespace {
@@ -63,6 +67,21 @@ StopRequests::StopRequests() {
 StopRequests::~StopRequests() { asks_first = false; }
 
 int stop_signal() noexcept { return asked_by.load(std::memory_order_relaxed); }
+
+bool finishes_before_stop(const std::function<void()>& work) {
+  std::packaged_task<void()> task(work);
+  std::future<void> end = task.get_future();
+  std::thread thread(std::move(task));
+  constexpr std::chrono::milliseconds kLook(50);
+  while (end.wait_for(kLook) != std::future_status::ready) {
+    if (stop_signal() == 0) continue;
+    thread.detach();
+    return false;
+  }
+  thread.join();
+  end.get();
+  return true;
+}
 
 int remove_on_signal(const char* path) noexcept {
   const std::size_t bytes = std::strlen(path) + 1;

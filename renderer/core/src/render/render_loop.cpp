@@ -3,7 +3,9 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -39,54 +41,107 @@ class RenderLoop {
              const SamplerFactory& make_sampler)
       : options_(options),
         threads_(options.threads),
-        film_(camera.width(), camera.height()),
-        dealt_(options.sampler == SamplerType::sobol ? film_.pixels().size() * options.replicates
-                                                     : 0),
-        progress_(options.progress, film_.pixels().size() * options.samples_per_pixel),
-        samplers_(make_sampler) {}
+        state_(first_state(camera, options)),
+        before_{state_.counters, state_.seconds},
+        progress_(options.progress, state_.drawn.size() * options.samples_per_pixel),
+        samplers_(make_sampler) {
+    const Tile all{0, camera.width(), 0, camera.height()};
+    if (!dealt().empty()) all.for_each_pixel([&](int x, int y) { sum_replicates(x, y); });
+  }
 
   LoopResult run() {
-    const auto start = std::chrono::steady_clock::now();
-    const auto elapsed = [&] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
-    std::uint32_t done = 0;
-    while (done < options_.samples_per_pixel) {
-      const std::uint32_t samples = next_pass(done, elapsed());
-      if (samples == 0) break;
-      render_pass(done, samples);
-      done += samples;
-      if (options_.relative_error > 0 && done > 1 &&
-          film_.relative_error() <= options_.relative_error) {
-        break;
-      }
+    std::uint32_t done = drawn();
+    bool stopped = false;
+    while (!stopped && done < options_.samples_per_pixel && !is_good_enough(done)) {
+      const std::uint32_t target = next_look(done);
+      if (target == done) break;
+      stopped = !render_up_to(target);
+      done = drawn();
     }
-    LoopResult result{std::move(film_), {}, done, elapsed()};
-    for (const auto& sampler : samplers_) result.counters += sampler->counters;
-    return result;
+    stopped = stopped && done < options_.samples_per_pixel;
+    keep(true);
+    return {std::move(state_.film), state_.counters, done, state_.seconds, stopped};
   }
 
  private:
-  /// Samples per pixel of the next pass: all at once without a limit to look at, else doubling,
-  /// with the last pass cut to the time that is left. 0 ends the render.
-  std::uint32_t next_pass(std::uint32_t done, double seconds) const {
-    const std::uint32_t left = options_.samples_per_pixel - done;
-    if (!(options_.seconds > 0) && !(options_.relative_error > 0)) return left;
-    if (done == 0) return 1;
-    double samples = std::min<double>(done, left);
-    if (options_.seconds > 0) {
-      samples = std::min(samples, (options_.seconds - seconds) / seconds * done);
-    }
-    return samples >= 1 ? static_cast<std::uint32_t>(samples) : 0;
+  struct Costs {
+    PathCounters counters;
+    double seconds = 0;
+  };
+
+  static RenderState first_state(const Camera& camera, const SamplingOptions& options) {
+    if (options.interruptions.from) return *options.interruptions.from;
+    RenderState state;
+    state.film = Film(camera.width(), camera.height());
+    const std::size_t pixels = state.film.pixels().size();
+    if (options.sampler == SamplerType::sobol) state.replicates.resize(pixels * options.replicates);
+    state.drawn.resize(pixels);
+    return state;
   }
 
-  void render_pass(std::uint32_t first_sample, std::uint32_t samples) {
-    threads_.run(film_.width(), film_.height(), tile_side(samples), [&](const Tile& tile) {
+  /// Samples of every pixel; without pixels, all.
+  std::uint32_t drawn() const { return std::min(state_.least_drawn(), options_.samples_per_pixel); }
+
+  double seconds() const {
+    return before_.seconds +
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  /// Costs are those of what was rendered before, and here.
+  void keep(bool is_last) {
+    state_.seconds = seconds();
+    state_.counters = before_.counters;
+    for (const auto& sampler : samplers_) state_.counters += sampler->counters;
+    if (options_.interruptions.keep) options_.interruptions.keep(state_, is_last);
+  }
+
+  /// The error is looked at after 2, 4, 8, … samples, however they came about.
+  bool is_good_enough(std::uint32_t done) const {
+    return options_.relative_error > 0 && done > 1 && std::has_single_bit(done) &&
+           state_.film.relative_error() <= options_.relative_error;
+  }
+
+  /// Samples per pixel at which the limits are looked at next: all without a limit to look at, else
+  /// the next power of two, or what the time that is left is enough for. `done` ends the render.
+  std::uint32_t next_look(std::uint32_t done) const {
+    const std::uint32_t all = options_.samples_per_pixel;
+    if (!(options_.seconds > 0) && !(options_.relative_error > 0)) return all;
+    if (done == 0) return 1;
+    double samples = std::min(std::bit_ceil(done + 1), all) - done;
+    if (options_.seconds > 0) {
+      const double so_far = seconds();
+      samples = std::min(samples, (options_.seconds - so_far) / so_far * done);
+    }
+    return samples >= 1 ? done + static_cast<std::uint32_t>(samples) : done;
+  }
+
+  /// @return false where it was stopped
+  bool render_up_to(std::uint32_t target) {
+    const Interruptions& interruptions = options_.interruptions;
+    for (std::uint32_t done = drawn(); done < target; done = drawn()) {
+      const std::uint32_t left = target - done;
+      const std::uint32_t samples = interruptions.any() ? std::min(left, samples_of_slice_) : left;
+      const Slice slice(interruptions);
+      render_slice(done, samples, slice);
+      if (slice.seconds() < interruptions.slice / 2) {
+        samples_of_slice_ = std::min(2 * samples_of_slice_, 1u << 30);
+      } else if (slice.seconds() > 2 * interruptions.slice) {
+        samples_of_slice_ = std::max(samples_of_slice_ / 2, 1u);
+      }
+      keep(false);
+      if (slice.stops()) return false;
+    }
+    return true;
+  }
+
+  void render_slice(std::uint32_t done, std::uint32_t samples, const Slice& slice) {
+    const Film& film = state_.film;
+    threads_.run(film.width(), film.height(), tile_side(samples), [&](const Tile& tile) {
+      if (slice.is_cut()) return;
       PixelSampler& sampler = *samplers_.local();
-      tile.for_each_pixel(
-          [&](int x, int y) { render_pixel(x, y, first_sample, samples, sampler); });
+      tile.for_each_pixel([&](int x, int y) { render_pixel(x, y, done + samples, sampler); });
       sampler.finish();
-      if (!dealt_.empty()) tile.for_each_pixel([&](int x, int y) { sum_replicates(x, y); });
+      if (!dealt().empty()) tile.for_each_pixel([&](int x, int y) { sum_replicates(x, y); });
       progress_.advance(tile.pixels() * samples);
     });
   }
@@ -98,34 +153,52 @@ class RenderLoop {
     return side;
   }
 
-  void render_pixel(int x, int y, std::uint32_t first_sample, std::uint32_t samples,
-                    PixelSampler& sampler) {
-    const std::size_t pixel = film_.index(x, y);
-    const std::uint32_t replicates = dealt_.empty() ? 1 : options_.replicates;
-    for (std::uint32_t s = first_sample; s < first_sample + samples; ++s) {
+  std::vector<PixelMoments>& dealt() { return state_.replicates; }
+
+  /// Of a slice that was cut, some pixels have their samples already.
+  void render_pixel(int x, int y, std::uint32_t target, PixelSampler& sampler) {
+    const std::size_t pixel = state_.film.index(x, y);
+    const std::uint32_t replicates = dealt().empty() ? 1 : options_.replicates;
+    for (std::uint32_t& s = state_.drawn[pixel]; s < target; ++s) {
       const std::uint64_t net = pixel * replicates + s % replicates;
-      PixelMoments& moments = dealt_.empty() ? film_.pixels()[pixel] : dealt_[net];
+      PixelMoments& moments = dealt().empty() ? state_.film.pixels()[pixel] : dealt()[net];
       sampler.sample(x, y, net, s / replicates, moments);
     }
   }
 
   void sum_replicates(int x, int y) {
-    const std::size_t index = film_.index(x, y);
-    PixelMoments& pixel = film_.pixels()[index];
+    const std::size_t index = state_.film.index(x, y);
+    PixelMoments& pixel = state_.film.pixels()[index];
     pixel = {};
-    const auto dealt = std::span(dealt_).subspan(index * options_.replicates, options_.replicates);
+    const auto dealt =
+        std::span(state_.replicates).subspan(index * options_.replicates, options_.replicates);
     for (const PixelMoments& replicate : dealt) pixel.add_replicate(replicate);
   }
 
   const SamplingOptions& options_;
   TileThreads threads_;
-  Film film_;
-  std::vector<PixelMoments> dealt_;  // under Sobol: the replicates of each pixel
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  RenderState state_;
+  Costs before_;
+  std::uint32_t samples_of_slice_ = 1;
   ProgressReport progress_;
   oneapi::tbb::enumerable_thread_specific<std::unique_ptr<PixelSampler>> samplers_;
 };
 
 }  // namespace
+
+std::uint32_t RenderState::least_drawn() const {
+  std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+  for (const std::uint32_t samples : drawn) least = std::min(least, samples);
+  return least;
+}
+
+Slice::Slice(const Interruptions& interruptions)
+    : interruptions_(interruptions), start_(std::chrono::steady_clock::now()) {}
+
+double Slice::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
 
 std::unique_ptr<PixelSampler> make_scalar_sampler(const Scene& scene, const PathOptions& path,
                                                   SamplerType sampler, std::uint64_t seed) {

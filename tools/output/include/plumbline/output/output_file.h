@@ -46,7 +46,9 @@ class OutputFile {
   /// @throws renderer::InputError, renderer::MachineError for what it throws, with the name that
   /// the
   ///         user knows in the message
-  void fill(const std::function<void(const std::filesystem::path& path)>& write) const;
+  void fill(const std::function<void(const std::filesystem::path& path)>& write);
+
+  bool is_filled() const { return is_filled_; }
 
   /// As the user called it.
   const std::filesystem::path& target() const { return given_; }
@@ -65,6 +67,7 @@ class OutputFile {
   std::filesystem::path given_;
   FileIdentity identity_;
   bool synced_;
+  bool is_filled_ = false;
   int stream_ = -1;  // the standard output, where that is meant
   std::unique_ptr<TemporaryFile> temporary_;
 };
@@ -85,7 +88,7 @@ class Files {
   ///         renderer::MachineError
   OutputFile& writes(const std::string& option, const std::filesystem::path& path);
 
-  /// Puts all in their places. Each must be written whole.
+  /// Puts those that are filled in their places; the others leave what was there.
   void finish();
 
  private:

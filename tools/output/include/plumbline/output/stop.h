@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 /// What SIGINT, SIGTERM and other signals do to the command.
 namespace plumbline::output {
 
@@ -20,6 +22,13 @@ class StopRequests {
 
 /// The signal that asked the work to stop; 0 where none has. Cheap, from any thread.
 int stop_signal() noexcept;
+
+/// Does work that knows nothing of signals: in a thread of its own, which is left behind where a
+/// signal asks to stop. What it throws is thrown on.
+///
+/// @return  whether it came to its end; where not, the process must end without destructors
+///          (`std::_Exit`), for the thread still works
+bool finishes_before_stop(const std::function<void()>& work);
 
 /// As shells call a process that a signal ended: 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP.
 constexpr int exit_code_of_signal(int signal) { return 128 + signal; }

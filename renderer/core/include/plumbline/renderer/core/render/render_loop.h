@@ -6,6 +6,7 @@
 
 #include <plumbline/renderer/core/render/film.h>
 #include <plumbline/renderer/core/render/path.h>
+#include <plumbline/renderer/core/render/render_state.h>
 #include <plumbline/renderer/core/sampling/sampler.h>
 #include <plumbline/renderer/core/scene/scene.h>
 
@@ -27,6 +28,7 @@ struct SamplingOptions {
   int threads = 0;  ///< 0: all cores. The image does not depend on it.
   /// Called now and then from one thread with the fraction done, in [0, 1]. May be empty.
   std::function<void(double)> progress;
+  Interruptions interruptions;
 };
 
 /// Draws samples of pixels; each thread has one of its own.
@@ -55,14 +57,16 @@ std::unique_ptr<PixelSampler> make_scalar_sampler(const Scene& scene, const Path
 struct LoopResult {
   Film film;
   PathCounters counters;
-  std::uint32_t samples_per_pixel = 0;  ///< drawn
+  std::uint32_t samples_per_pixel = 0;  ///< drawn, of every pixel
   double seconds = 0;
+  bool stopped = false;  ///< before the limits were reached: pixels may have more samples
 };
 
 /// A tile holds at least so many samples, for samplers that work on many at once.
 inline constexpr std::size_t kSamplesPerTile = 2048;
 
-/// Renders an image. The same samples give the same bits, whatever the number of threads or passes.
+/// Renders an image. The same samples give the same bits, whatever the number of threads or passes,
+/// and however often it was stopped and gone on with.
 ///
 /// @throws InputError for an error limit on one replicate of Sobol points, whose error is not known
 LoopResult run_render_loop(const Camera& camera, const SamplingOptions& options,

@@ -1,0 +1,137 @@
+#include "checkpoint_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <utility>
+
+#include <plumbline/output/failure.h>
+#include <plumbline/output/stop.h>
+#include <plumbline/renderer/assembly/names.h>
+#include <plumbline/renderer/core/errors.h>
+
+namespace plumbline::tools {
+namespace {
+
+/// The state is what the options make of one, whatever the file says.
+bool fits(const renderer::RenderState& state, const renderer::SceneDescription& scene,
+          const renderer::RenderOptions& options) {
+  const std::size_t pixels = state.film.pixels().size();
+  const bool is_sobol = options.sampler == renderer::SamplerType::sobol;
+  const std::size_t iterations = options.allocation ? options.allocation->iterations : 0;
+  return state.film.width() == scene.camera.width && state.film.height() == scene.camera.height &&
+         state.replicates.size() == (is_sobol ? pixels * options.replicates : 0) &&
+         state.bsdf_counts.size() == pixels * iterations;
+}
+
+void add_allocation(const renderer::RenderOptions& options, output::CheckpointSettings& settings) {
+  const renderer::AllocationOptions& allocation = *options.allocation;
+  settings["allocation"] =
+      fmt::format("{}, {} iterations, share limit {}, cost ratio {}", name(allocation.policy),
+                  allocation.iterations, allocation.limit, allocation.cost_ratio);
+  // What a pixel's samples are shared out to depends on how many there are.
+  settings["samples per pixel"] = std::to_string(options.samples_per_pixel);
+}
+
+}  // namespace
+
+void add_checkpoint_options(options::Command& command, CheckpointArguments& arguments) {
+  command
+      .add(
+          "--checkpoint", arguments.file,
+          "Keep all that is done in this file now and then, when the render is stopped, and at its "
+          "end")
+      .type("FILE");
+  command.add("--every", arguments.every, "Time between checkpoints; 60 without it")
+      .positive_number()
+      .needs("--checkpoint")
+      .type("S");
+  command
+      .add("--resume", arguments.resume,
+           "Go on from this checkpoint: the image is that of a render that never stopped, bit for "
+           "bit, but with --seconds, whose samples are as many as there was time for")
+      .type("FILE");
+}
+
+output::CheckpointSettings checkpoint_settings(const renderer::SceneDescription& scene,
+                                               const renderer::RenderOptions& options) {
+  const renderer::PathOptions& path = options.path;
+  output::CheckpointSettings settings = {
+      {"scene content",
+       fmt::format("{:016x}", output::content_hash(scene.files, scene.parameters))},
+      {"size", fmt::format("{}x{}", scene.camera.width, scene.camera.height)},
+      {"strategy", std::string(name(path.strategy))},
+      {"heuristic", describe(path.heuristic)},
+      {"counts", fmt::format("{},{}", path.bsdf_samples, path.light_samples)},
+      {"light probability", fmt::format("{}", path.light_probability)},
+      {"maximum depth", std::to_string(path.max_depth)},
+      {"roulette depth", std::to_string(path.rr_depth)},
+      {"light selection", std::string(name(scene.light_selection))},
+      {"sampler", std::string(name(options.sampler))},
+      {"replicates", std::to_string(options.replicates)},
+      {"backend", std::string(name(options.backend))},
+      {"error", fmt::format("{}", options.relative_error)},
+      {"seed", std::to_string(options.seed)},
+      {"version", PLUMBLINE_VERSION},
+  };
+  if (options.allocation) add_allocation(options, settings);
+  return settings;
+}
+
+Checkpoints::Checkpoints(CheckpointArguments arguments, output::Files& files)
+    : arguments_(std::move(arguments)) {
+  if (!arguments_.resume.empty()) files.reads_first(arguments_.resume);
+  if (!arguments_.file.empty()) files.writes("--checkpoint", arguments_.file);
+}
+
+void Checkpoints::attach(const renderer::SceneDescription& scene,
+                         renderer::RenderOptions& options) {
+  options.interruptions.stop = [] { return output::stop_signal() != 0; };
+  if (arguments_.file.empty() && arguments_.resume.empty()) return;
+  settings_ = checkpoint_settings(scene, options);
+  if (!arguments_.resume.empty()) {
+    output::Checkpoint checkpoint = output::read_checkpoint(arguments_.resume);
+    output::require_same(arguments_.resume, checkpoint.settings, settings_);
+    if (!fits(checkpoint.state, scene, options)) {
+      throw renderer::InputError(arguments_.resume + ": does not hold what it says");
+    }
+    const std::uint32_t drawn =
+        *std::max_element(checkpoint.state.drawn.begin(), checkpoint.state.drawn.end());
+    if (drawn > options.samples_per_pixel) {
+      throw renderer::InputError(fmt::format("{}: holds {} samples per pixel, more than --spp {}",
+                                             arguments_.resume, drawn, options.samples_per_pixel));
+    }
+    options.interruptions.from =
+        std::make_shared<const renderer::RenderState>(std::move(checkpoint.state));
+  }
+  if (arguments_.file.empty()) return;
+  options.interruptions.keep = [this](const renderer::RenderState& state, bool is_last) {
+    keep(state, is_last);
+  };
+}
+
+/// A checkpoint that cannot be written costs no render.
+void Checkpoints::keep(const renderer::RenderState& state, bool is_last) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_last && std::chrono::duration<double>(now - kept_).count() < arguments_.every) return;
+  kept_ = now;
+  try {
+    output::OutputFile file(arguments_.file, true);
+    file.fill([&](const auto& path) { output::write_checkpoint(path, settings_, state); });
+    file.finish();
+    is_kept_ = true;
+  } catch (const std::exception&) {
+    output::tell(fmt::format("plumbline: no checkpoint: {}\n",
+                             output::failure_of(std::current_exception()).what));
+  }
+}
+
+std::string Checkpoints::how_to_resume() const {
+  if (arguments_.file.empty()) return "without --checkpoint it cannot be gone on with";
+  if (!is_kept_) return "there is no checkpoint to go on from";
+  return fmt::format("the same command with --resume {} goes on", arguments_.file);
+}
+
+}  // namespace plumbline::tools

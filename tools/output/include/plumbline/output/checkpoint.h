@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <plumbline/renderer/core/render/render_state.h>
+
+/// Renders that were kept half done, to go on from. Format "plumbline.checkpoint/1": lines
+/// "name=value" up to an empty one, then the moments of each replicate of each pixel as they are in
+/// memory, in double, and a hash of all that.
+namespace plumbline::output {
+
+/// What the samples depend on, by name: another value would give others.
+using CheckpointSettings = std::map<std::string, std::string>;
+
+struct Checkpoint {
+  CheckpointSettings settings;
+  renderer::RenderState state;
+};
+
+/// Over what is there. Who needs the file whole or not at all writes it elsewhere.
+///
+/// @throws renderer::InputError, renderer::MachineError where it cannot be written
+void write_checkpoint(const std::filesystem::path& path, const CheckpointSettings& settings,
+                      const renderer::RenderState& state);
+
+/// @throws renderer::InputError for what is no checkpoint, is torn or was changed
+Checkpoint read_checkpoint(const std::filesystem::path& path);
+
+/// @throws renderer::InputError with each setting that is another
+void require_same(const std::filesystem::path& path, const CheckpointSettings& kept,
+                  const CheckpointSettings& given);
+
+/// A number for what a scene is made of: the bytes of its files in the order in which they are
+/// read, and its parameters. FNV-1a, 64 bits: against mistakes, not against malice.
+///
+/// @throws renderer::InputError where a file cannot be read
+std::uint64_t content_hash(const std::vector<std::filesystem::path>& files,
+                           const std::map<std::string, std::string>& parameters);
+
+}  // namespace plumbline::output

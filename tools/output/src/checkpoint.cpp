@@ -1,0 +1,258 @@
+#include <plumbline/output/checkpoint.h>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <charconv>
+#include <cstddef>
+#include <fstream>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include <plumbline/output/failure.h>
+#include <plumbline/renderer/core/errors.h>
+
+namespace plumbline::output {
+namespace {
+
+namespace fs = std::filesystem;
+using renderer::PixelMoments;
+using renderer::RenderState;
+
+constexpr std::string_view kFormat = "plumbline.checkpoint/1";
+
+// All that goes on from there is kept, in the order of memory, and read by the same kind of
+// machine.
+static_assert(std::endian::native == std::endian::little);
+static_assert(std::is_trivially_copyable_v<PixelMoments> && sizeof(PixelMoments) == 56,
+              "another field of the moments is another format");
+static_assert(std::is_trivially_copyable_v<renderer::PathCounters>);
+
+class Hash {
+ public:
+  void add(std::string_view bytes) {
+    for (const char c : bytes) value_ = (value_ ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  }
+  /// Told from other texts in a row.
+  void add_text(std::string_view text) {
+    add(fmt::format("{}:", text.size()));
+    add(text);
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 14695981039346656037u;
+};
+
+template <class T>
+std::string_view bytes_of(std::span<const T> values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
+}
+
+template <class T>
+std::string_view bytes_of(const T& value) {
+  return bytes_of(std::span<const T>(&value, 1));
+}
+
+class Writer {
+ public:
+  explicit Writer(const fs::path& path) : path_(path), out_(path, std::ios::binary) {
+    if (!out_) throw_errno(path.string(), "cannot be written to", errno);
+  }
+
+  void put(std::string_view bytes) {
+    hash_.add(bytes);
+    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+
+  void finish() {
+    const std::uint64_t hash = hash_.value();
+    put(bytes_of(hash));
+    out_.close();
+    if (out_) return;
+    throw renderer::MachineError(path_.string() + ": cannot be written; is the disk full?");
+  }
+
+ private:
+  fs::path path_;
+  std::ofstream out_;
+  Hash hash_;
+};
+
+class Reader {
+ public:
+  explicit Reader(const fs::path& path) : path_(path), in_(path, std::ios::binary) {
+    std::error_code error;
+    if (!in_) throw_errno(path.string(), "cannot be read", errno);
+    left_ = fs::file_size(path, error);
+    if (error) throw_errno(path.string(), "cannot be read", error.value());
+  }
+
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw renderer::InputError(fmt::format("{}: {}", path_.string(), why));
+  }
+
+  std::string line() {
+    std::string text;
+    constexpr std::size_t kLongest = 1 << 16;
+    for (char c = 0; text.size() < kLongest && in_.get(c);) {
+      --left_;
+      if (c == '\n') {
+        hash_.add(text + c);
+        return text;
+      }
+      text += c;
+    }
+    refuse("is no checkpoint, or torn");
+  }
+
+  /// Memory is taken for what the file has alone.
+  template <class T>
+  std::vector<T> values(std::uint64_t count) {
+    if (count > left_ / sizeof(T)) refuse("is torn: it ends too soon");
+    std::vector<T> values(count);
+    read(std::as_writable_bytes(std::span(values)));
+    return values;
+  }
+
+  template <class T>
+  T value() {
+    return values<T>(1).front();
+  }
+
+  void finish() {
+    const std::uint64_t hash = hash_.value();
+    if (value<std::uint64_t>() != hash || left_ != 0) refuse("is torn, or was changed");
+  }
+
+ private:
+  void read(std::span<std::byte> bytes) {
+    in_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!in_) refuse("cannot be read to its end");
+    left_ -= bytes.size();
+    hash_.add({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+
+  fs::path path_;
+  std::ifstream in_;
+  std::uintmax_t left_ = 0;
+  Hash hash_;
+};
+
+/// How many there are of each, before them.
+struct Counts {
+  std::uint32_t width = 0, height = 0;
+  std::uint64_t replicates = 0, bsdf_counts = 0;
+};
+
+CheckpointSettings read_settings(Reader& in) {
+  CheckpointSettings settings;
+  for (std::string line = in.line(); !line.empty(); line = in.line()) {
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos) in.refuse("is no checkpoint, or was changed");
+    settings[line.substr(0, equals)] = line.substr(equals + 1);
+  }
+  return settings;
+}
+
+/// A name or value in one line.
+std::string in_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& path, const CheckpointSettings& settings,
+                      const RenderState& state) {
+  Writer out(path);
+  out.put(fmt::format("{}\n", kFormat));
+  for (const auto& [name, value] : settings) {
+    out.put(fmt::format("{}={}\n", in_line(name), in_line(value)));
+  }
+  out.put("\n");
+  const Counts counts{static_cast<std::uint32_t>(state.film.width()),
+                      static_cast<std::uint32_t>(state.film.height()), state.replicates.size(),
+                      state.bsdf_counts.size()};
+  out.put(bytes_of(counts));
+  out.put(bytes_of(std::span<const std::uint32_t>(state.drawn)));
+  // Under Sobol the film is what the replicates make of it.
+  out.put(bytes_of(std::span<const PixelMoments>(state.replicates.empty() ? state.film.pixels()
+                                                                          : state.replicates)));
+  out.put(bytes_of(std::span<const std::uint32_t>(state.bsdf_counts)));
+  out.put(bytes_of(state.counters));
+  out.put(bytes_of(state.seconds));
+  out.finish();
+}
+
+Checkpoint read_checkpoint(const fs::path& path) {
+  Reader in(path);
+  if (in.line() != kFormat) in.refuse("is no checkpoint of this version of the format");
+  Checkpoint checkpoint;
+  checkpoint.settings = read_settings(in);
+  const auto counts = in.value<Counts>();
+  constexpr std::uint32_t kMaxSide = 1u << 16;
+  if (counts.width > kMaxSide || counts.height > kMaxSide) in.refuse("has an unreasonable size");
+  const std::uint64_t pixels = std::uint64_t{counts.width} * counts.height;
+  RenderState& state = checkpoint.state;
+  state.drawn = in.values<std::uint32_t>(pixels);
+  state.replicates = in.values<PixelMoments>(counts.replicates > 0 ? counts.replicates : pixels);
+  state.film = renderer::Film(static_cast<int>(counts.width), static_cast<int>(counts.height));
+  if (counts.replicates == 0) state.film.pixels().swap(state.replicates);
+  if (counts.replicates == 0) state.replicates.clear();
+  state.bsdf_counts = in.values<std::uint32_t>(counts.bsdf_counts);
+  state.counters = in.value<renderer::PathCounters>();
+  state.seconds = in.value<double>();
+  in.finish();
+  return checkpoint;
+}
+
+void require_same(const fs::path& path, const CheckpointSettings& kept,
+                  const CheckpointSettings& given) {
+  std::string differences;
+  const auto differs = [&](const std::string& name, const std::string& a, const std::string& b) {
+    differences += fmt::format("\n  {}: kept of {}, asked for {}", name, a, b);
+  };
+  for (const auto& [name, value] : given) {
+    const auto found = kept.find(name);
+    if (found == kept.end()) {
+      differs(name, "none", value);
+    } else if (found->second != in_line(value)) {
+      differs(name, found->second, value);
+    }
+  }
+  for (const auto& [name, value] : kept) {
+    if (!given.contains(name)) differs(name, value, "none");
+  }
+  if (differences.empty()) return;
+  throw renderer::InputError(
+      fmt::format("{}: is of another render:{}", path.string(), differences));
+}
+
+std::uint64_t content_hash(const std::vector<fs::path>& files,
+                           const std::map<std::string, std::string>& parameters) {
+  Hash hash;
+  for (const fs::path& file : files) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw_errno(file.string(), "cannot be read", errno);
+    std::array<char, 1 << 16> buffer;
+    std::uint64_t size = 0;
+    while (in.read(buffer.data(), buffer.size()), in.gcount() > 0) {
+      hash.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
+      size += static_cast<std::uint64_t>(in.gcount());
+    }
+    hash.add_text(fmt::format("{} bytes", size));
+  }
+  for (const auto& [name, value] : parameters) {
+    hash.add_text(name);
+    hash.add_text(value);
+  }
+  return hash.value();
+}
+
+}  // namespace plumbline::output
