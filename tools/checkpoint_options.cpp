@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 #include <plumbline/output/failure.h>
@@ -24,6 +26,58 @@ bool fits(const renderer::RenderState& state, const renderer::SceneDescription& 
   return state.film.width() == scene.camera.width && state.film.height() == scene.camera.height &&
          state.replicates.size() == (is_sobol ? pixels * options.replicates : 0) &&
          state.bsdf_counts.size() == pixels * iterations;
+}
+
+renderer::RenderState fresh_state(const renderer::SceneDescription& scene,
+                                  const renderer::RenderOptions& options) {
+  renderer::RenderState state;
+  state.film = renderer::Film(scene.camera.width, scene.camera.height);
+  const std::size_t pixels = state.film.pixels().size();
+  state.drawn.resize(pixels);
+  if (options.sampler == renderer::SamplerType::sobol) {
+    state.replicates.resize(pixels * options.replicates);
+  }
+  if (options.allocation) state.bsdf_counts.resize(pixels * options.allocation->iterations);
+  return state;
+}
+
+/// Whole pixels are dealt out, in turn: no net of points is ever cut, and no sum is split.
+struct Shard {
+  std::uint32_t number = 1, count = 1;
+
+  bool has(std::size_t pixel) const { return pixel % count == number - 1; }
+};
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  if (text.empty()) return shard;
+  const char* end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, shard.number);
+  if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
+    const auto count = std::from_chars(number.ptr + 1, end, shard.count);
+    if (count.ec == std::errc() && count.ptr == end && shard.number >= 1 &&
+        shard.number <= shard.count) {
+      return shard;
+    }
+  }
+  throw renderer::InputError(
+      fmt::format("--shard {}: must read I/N, the part I from 1 to N of N", text));
+}
+
+bool is_of(const renderer::RenderState& state, const Shard& shard) {
+  for (std::size_t i = 0; i < state.drawn.size(); ++i) {
+    if (output::is_here(state.drawn[i]) != shard.has(i)) return false;
+  }
+  return true;
+}
+
+/// Of the pixels that are rendered here.
+std::uint32_t most_drawn(const renderer::RenderState& state) {
+  std::uint32_t most = 0;
+  for (const std::uint32_t drawn : state.drawn) {
+    if (output::is_here(drawn)) most = std::max(most, drawn);
+  }
+  return most;
 }
 
 void add_allocation(const renderer::RenderOptions& options, output::CheckpointSettings& settings) {
@@ -53,6 +107,13 @@ void add_checkpoint_options(options::Command& command, CheckpointArguments& argu
            "Go on from this checkpoint: the image is that of a render that never stopped, bit for "
            "bit, but with --seconds, whose samples are as many as there was time for")
       .type("FILE");
+  command
+      .add("--shard", arguments.shard,
+           "Render the part I of N of the pixels; merge puts the checkpoints of all together")
+      .needs("--checkpoint")
+      .excludes("--seconds")
+      .excludes("--error")
+      .type("I/N");
 }
 
 output::CheckpointSettings checkpoint_settings(const renderer::SceneDescription& scene,
@@ -91,24 +152,33 @@ void Checkpoints::attach(const renderer::SceneDescription& scene,
   options.interruptions.stop = [] { return output::stop_signal() != 0; };
   if (arguments_.file.empty() && arguments_.resume.empty()) return;
   settings_ = checkpoint_settings(scene, options);
-  if (!arguments_.resume.empty()) {
+  const Shard shard = parse_shard(arguments_.shard);
+  auto state = std::make_shared<renderer::RenderState>();
+  if (arguments_.resume.empty()) {
+    *state = fresh_state(scene, options);
+    for (std::size_t i = 0; i < state->drawn.size(); ++i) {
+      if (!shard.has(i)) state->drawn[i] = output::kElsewhere;
+    }
+  } else {
     output::Checkpoint checkpoint = output::read_checkpoint(arguments_.resume);
     output::require_same(arguments_.resume, checkpoint.settings, settings_);
     if (!fits(checkpoint.state, scene, options)) {
       throw renderer::InputError(arguments_.resume + ": does not hold what it says");
     }
-    const std::uint32_t drawn =
-        *std::max_element(checkpoint.state.drawn.begin(), checkpoint.state.drawn.end());
+    if (!is_of(checkpoint.state, shard)) {
+      throw renderer::InputError(arguments_.resume + ": is of another --shard");
+    }
+    const std::uint32_t drawn = most_drawn(checkpoint.state);
     if (drawn > options.samples_per_pixel) {
       throw renderer::InputError(fmt::format("{}: holds {} samples per pixel, more than --spp {}",
                                              arguments_.resume, drawn, options.samples_per_pixel));
     }
-    options.interruptions.from =
-        std::make_shared<const renderer::RenderState>(std::move(checkpoint.state));
+    *state = std::move(checkpoint.state);
   }
+  options.interruptions.from = state;
   if (arguments_.file.empty()) return;
-  options.interruptions.keep = [this](const renderer::RenderState& state, bool is_last) {
-    keep(state, is_last);
+  options.interruptions.keep = [this](const renderer::RenderState& done, bool is_last) {
+    keep(done, is_last);
   };
 }
 

@@ -15,11 +15,11 @@ namespace plumbline::tools {
 
 /// What `render` was told about checkpoints.
 struct CheckpointArguments {
-  std::string file, resume;
+  std::string file, resume, shard;
   double every = 60;  ///< [s]
 };
 
-/// Adds --checkpoint, --every and --resume.
+/// Adds --checkpoint, --every, --resume and --shard.
 void add_checkpoint_options(options::Command& command, CheckpointArguments& arguments);
 
 /// All that the samples of a render depend on but for the version: two renders with the same are of

@@ -17,6 +17,7 @@ void add_render_command(options::CommandLine& line);
 void add_calibrate_command(options::CommandLine& line);
 void add_check_command(options::CommandLine& line);
 void add_compare_command(options::CommandLine& line);
+void add_merge_command(options::CommandLine& line);
 void add_report_command(options::CommandLine& line);
 void add_verify_command(options::CommandLine& line);
 void add_history_command(options::CommandLine& line);

@@ -81,6 +81,7 @@ int run(int argc, char** argv) {
   add_render_command(line);
   add_check_command(line);
   add_compare_command(line);
+  add_merge_command(line);
   add_calibrate_command(line);
   add_verify_command(line);
   add_init_command(line);

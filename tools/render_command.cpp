@@ -248,6 +248,7 @@ int run_render(const RenderArguments& arguments) {
   if (!output.is_device()) record.image = arguments.output;
   renderer::Image image = to_image(result.film);
   image.metadata = metadata(record);
+  if (!arguments.checkpoint.shard.empty()) image.metadata["shard"] = arguments.checkpoint.shard;
   if (result.stopped) image.metadata["stopped"] = stopped_at(options, result);
   output.fill([&](const auto& path) { write_exr(path, image); });
   if (!result.stopped) share_map.write(result);  // the shares of a pixel are those at its end

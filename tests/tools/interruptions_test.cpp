@@ -161,5 +161,80 @@ TEST(Interruptions, ACheckpointOfAnotherRenderIsRefusedWithWhatIsAnother) {
   refused("", "was changed");
 }
 
+/// Checkpoints of a small render with these options, and its image without any.
+void render_shards(const ScratchDirectory& scratch, const std::string& render) {
+  ASSERT_EQ(run_plumbline(scratch.path(), render + " -o whole.exr").exit_code, 0);
+  for (const std::string shard : {"1", "2", "3"}) {
+    const Outcome outcome = run_plumbline(
+        scratch.path(), render + " -o /dev/null --shard " + shard + "/3 --checkpoint " + shard);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+}
+
+TEST(Merge, OfAllShardsIsTheWholeImageBitForBit) {
+  for (const std::string options : {"", "--sampler sobol --replicates 4", "--strategy one-sample",
+                                    "--allocation lu --spp 80"}) {
+    const ScratchDirectory scratch;
+    const std::string spp = options.find("--spp") == std::string::npos ? "--spp 32 " : "";
+    render_shards(scratch, "render sphere_light --size 25x17 " + spp + options);
+    for (const std::string order : {"1 2 3", "3 1 2"}) {
+      const Outcome outcome = run_plumbline(scratch.path(), "merge " + order + " -o merged.exr");
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+      EXPECT_EQ(bits_of(scratch / "merged.exr"), bits_of(scratch / "whole.exr")) << options;
+    }
+  }
+}
+
+TEST(Merge, OfOtherSeedsAddsTheirSamples) {
+  const ScratchDirectory scratch;
+  const std::string render = "render sphere_light --size 8x6 --spp 32 ";
+  for (const std::string seed : {"1", "2"}) {
+    ASSERT_EQ(run_plumbline(scratch.path(),
+                            render + "-o " + seed + ".exr --seed " + seed + " --checkpoint " + seed)
+                  .exit_code,
+              0);
+  }
+  ASSERT_EQ(run_plumbline(scratch.path(), "merge 1 2 -o both.exr").exit_code, 0);
+  const renderer::Image a = renderer::read_exr(scratch / "1.exr");
+  const renderer::Image b = renderer::read_exr(scratch / "2.exr");
+  const renderer::Image both = renderer::read_exr(scratch / "both.exr");
+  EXPECT_EQ(both.metadata.at("seed"), "1, 2");
+  EXPECT_EQ(both.metadata.at("samples"), "64");
+  for (std::size_t i = 0; i < both.pixels.size(); ++i) {
+    EXPECT_EQ(both.count[i], 64);
+    const double mean = (double{a.pixels[i].g} + double{b.pixels[i].g}) / 2;
+    const double apart = double{a.pixels[i].g} - double{b.pixels[i].g};
+    // Sums of squares: those within each, and 32 samples each (apart / 2)² from the mean.
+    const double squares =
+        31 * (double{a.variance[i].g} + double{b.variance[i].g}) + 64 * (apart / 2) * (apart / 2);
+    EXPECT_NEAR(both.pixels[i].g, mean, 1e-6 * mean) << "two roundings to float";
+    EXPECT_NEAR(both.variance[i].g, squares / 63, 1e-5 * squares / 63);
+  }
+}
+
+TEST(Merge, RefusesWhatIsNoSum) {
+  const ScratchDirectory scratch;
+  render_shards(scratch, "render sphere_light --size 8x6 --spp 4");
+  const std::string other =
+      "render sphere_light --size 8x6 --spp 4 -o /dev/null --checkpoint other ";
+  const auto refused = [&](const std::string& arguments, const std::string& why) {
+    const Outcome outcome = run_plumbline(scratch.path(), arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << arguments << "\n" << outcome.err;
+  };
+  refused("merge 1 2 -o x.exr", "16 of 48 pixels are in none of the checkpoints");
+  refused("merge 1 2 3 2 -o x.exr", "2: holds samples of the seed 0 that 2 holds too");
+  refused("merge 1 whole.exr -o x.exr", "whole.exr: is no checkpoint");
+  refused("merge 1 2 3 -o 3", "is the same file as");
+  refused(other + "--resume 1 --shard 2/3", "1: is of another --shard");
+  refused(other + "--resume 1", "1: is of another --shard");
+  for (const std::string shard : {"0/3", "4/3", "1", "1/0", "a/b"}) {
+    refused(other + "--shard " + shard, "--shard " + shard + ": must read I/N");
+  }
+  ASSERT_EQ(run_plumbline(scratch.path(), other + "-D radius=0.3").exit_code, 0);
+  refused("merge 1 2 3 other -o x.exr", "other: is of another render:\n  scene content");
+  EXPECT_EQ(scratch.listing(), "1 2 3 other whole.exr");
+}
+
 }  // namespace
 }  // namespace plumbline::tests

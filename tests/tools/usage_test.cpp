@@ -13,7 +13,7 @@ TEST(Help, ShowsExamplesOfEveryCommand) {
   const ScratchDirectory scratch;
   for (const char* arguments :
        {"--help", "list --help", "render --help", "compare --help", "calibrate --help",
-        "check --help", "report --help", "verify --help", "history --help"}) {
+        "check --help", "report --help", "verify --help", "history --help", "merge --help"}) {
     const Outcome outcome = run_plumbline(scratch.path(), arguments);
     EXPECT_EQ(outcome.exit_code, 0) << arguments;
     EXPECT_NE(outcome.out.find("Example"), std::string::npos) << arguments;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,6 +16,10 @@ namespace plumbline::output {
 
 /// What the samples depend on, by name: another value would give others.
 using CheckpointSettings = std::map<std::string, std::string>;
+
+/// In `RenderState::drawn`: of a pixel that another shard renders. No render draws so many.
+inline constexpr std::uint32_t kElsewhere = std::numeric_limits<std::uint32_t>::max();
+constexpr bool is_here(std::uint32_t drawn) { return drawn != kElsewhere; }
 
 struct Checkpoint {
   CheckpointSettings settings;
