@@ -25,8 +25,8 @@ struct Image {
 Image to_image(const Film& film);
 
 /// Writes a multi-layer OpenEXR file: R, G, B, `variance.R`, `variance.G`, `variance.B`, `count`,
-/// and the metadata as string attributes. Written over what is there, if that is a regular file; who
-/// needs the file whole or not at all writes it elsewhere and renames it: tools' output_file.h.
+/// and the metadata as string attributes. Written over what is there, if that is a regular file;
+/// who needs the file whole or not at all writes it elsewhere and renames it: tools' output_file.h.
 ///
 /// @throws InputError where the path cannot be written to, MachineError where the disk is full
 void write_exr(const std::filesystem::path& path, const Image& image);
