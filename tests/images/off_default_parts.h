@@ -10,7 +10,7 @@ namespace plumbline::tests {
 
 /// A ray's width of film about the origin, seen from `origin`.
 inline std::string eye(const std::string& origin = "0.25 0 1") {
-  return R"(<sensor type="perspective"><float name="fov" value="0.01"/><transform name="to_world">
+  return R"(<sensor type="perspective"><float name="fov" value="0.05"/><transform name="to_world">
       <lookat origin=")" +
          origin + R"(" target="0 0 0" up="0 1 0"/></transform>
       <film type="hdrfilm"><rfilter type="box"/></film></sensor>

@@ -162,7 +162,8 @@ class Placer {
 
   static std::string name_of(const PointDescription& point) {
     return point.line == 0 ? "a point light"
-                           : fmt::format("<emitter type=\"point\"> on line {}", point.line);
+                           : fmt::format("<emitter type=\"point\"> on line {}", point.line) +
+                                 of_file(point.file);
   }
 
   /// Of intensities in the renderer's space, which have to be normal numbers.

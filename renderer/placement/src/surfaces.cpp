@@ -76,16 +76,20 @@ ExactShape surface_of(const DiskShape& disk) {
           frame.to_world({0, disk.radius, 0})};
 }
 
+std::string of_file(const std::filesystem::path& included) {
+  return included.empty() ? "" : " of " + included.string();
+}
+
 std::string name_of(const PlacedParts& scene, std::size_t shape) {
   const ShapeDescription& s = scene.shapes[shape];
   if (s.line == 0) return fmt::format("shape {}", shape + 1);
-  return fmt::format("{} on line {}", s.label, s.line);
+  return fmt::format("{} on line {}", s.label, s.line) + of_file(s.file);
 }
 
 std::string place_in_file(const PlacedParts& scene, std::size_t shape) {
   const ShapeDescription& s = scene.shapes[shape];
   if (s.line == 0) return name_of(scene, shape);
-  return fmt::format("{}:{}: {}", scene.file.string(), s.line, s.label);
+  return fmt::format("{}:{}: {}", (s.file.empty() ? scene.file : s.file).string(), s.line, s.label);
 }
 
 }  // namespace plumbline::renderer

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ double at_least_from(const ExactShape& surface, const Vec3d& p);
 
 /// "scene.xml:12: <shape type="sphere">", as far as it is known.
 std::string place_in_file(const PlacedParts& scene, std::size_t shape);
+
+/// " of part.xml" for what an included file holds, else nothing.
+std::string of_file(const std::filesystem::path& included);
 
 /// "<shape type="sphere"> on line 12".
 std::string name_of(const PlacedParts& scene, std::size_t shape);

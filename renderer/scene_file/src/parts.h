@@ -29,6 +29,16 @@ struct Source {
   std::filesystem::path file;
   std::string text;
   pugi::xml_document xml = {};
+  std::ptrdiff_t at = 0;  ///< up to where lines have been counted
+  std::size_t line = 1;   ///< there
+
+  /// Of elements in the order of the file: the text is gone through once.
+  std::size_t line_of(Node node) {
+    const auto from = text.begin() + at, to = text.begin() + node.offset_debug();
+    line += static_cast<std::size_t>(std::count(from, to, '\n'));
+    at = node.offset_debug();
+    return line;
+  }
 };
 
 /// The camera's planes that clip in Mitsuba and not here, with what gives them [m].
@@ -58,15 +68,12 @@ struct Reading {
   std::map<std::string, std::uint32_t> bsdfs_by_id = {};
   std::optional<std::uint32_t> default_bsdf = {};             ///< of shapes without one
   std::vector<std::pair<std::size_t, Node>> references = {};  ///< shapes with their <ref>s
-  std::ptrdiff_t at = 0;                                      ///< up to where lines are counted
-  std::size_t line = 1;                                       ///< there
-
-  /// Of elements in the order of the file: the text is gone through once.
-  std::size_t line_of(Node node) {
-    const auto from = text.begin() + at, to = text.begin() + node.offset_debug();
-    line += static_cast<std::size_t>(std::count(from, to, '\n'));
-    at = node.offset_debug();
-    return line;
+  /// Says of a shape or light where it stands.
+  template <class Described>
+  void place(Node node, Described& described) {
+    const std::size_t source = source_of(node.root());
+    described.line = sources[source]->line_of(node);
+    if (source > 0) described.file = sources[source]->file;
   }
 
   /// Which of the sources an element or a refusal is of.

@@ -61,7 +61,8 @@ void read_constant(const Object& object, Reading& in) {
 
 void read_point(const Object& object, Reading& in) {
   check_dark(object, kIntensity);
-  in.scene.points.push_back({object[kPosition], object[kIntensity], in.line_of(object.node())});
+  in.scene.points.push_back({object[kPosition], object[kIntensity]});
+  in.place(object.node(), in.scene.points.back());
 }
 
 void read_sun(const Object& object, Reading& in) {

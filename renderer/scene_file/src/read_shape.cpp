@@ -112,7 +112,7 @@ void read_shape(Node node, Reading& in) {
   if (!object.is_known()) return;
   for (const Node emitter : object[kEmitter]) read_object(emitter, kAreaEmitterTypes, in);
   ShapeDescription& shape = in.scene.shapes.back();
-  shape.line = in.line_of(node);
+  in.place(node, shape);
   shape.label = label(node);
   if (!object.has(kBsdf)) {
     if (!in.default_bsdf) {

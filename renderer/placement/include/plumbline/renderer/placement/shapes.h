@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
@@ -50,13 +51,15 @@ struct ShapeDescription {
   bool light_two_sided = false;       ///< a rectangle's other side emits alike
   std::size_t line = 0;               ///< in the file, from 1; 0: it stands in none
   std::string label = {};             ///< as messages name it: <shape type="sphere">
+  std::filesystem::path file = {};    ///< that it stands in, if the scene's includes it
 };
 
 /// A light without surface, alike in all directions.
 struct PointDescription {
   Vec3d position;
-  Rgbd intensity;        ///< [W/sr]
-  std::size_t line = 0;  ///< in the file, from 1; 0: it stands in none
+  Rgbd intensity;                   ///< [W/sr]
+  std::size_t line = 0;             ///< in the file, from 1; 0: it stands in none
+  std::filesystem::path file = {};  ///< that it stands in, if the scene's includes it
 };
 
 }  // namespace plumbline::renderer
