@@ -31,6 +31,9 @@ std::string heading(const std::string& table) {
   if (table == calibration::kTableFalseFailures) {
     return "false failures of skewed but correct estimators: share of runs that fail";
   }
+  if (table == calibration::kTableWrongPasses) {
+    return "wrong passes of estimators that are off by the tolerance: share of runs that pass";
+  }
   if (table == calibration::kTableDetection) {
     return "detection of errors as large as `detectable`, which promises 0.99: share of runs that "
            "fail";

@@ -41,8 +41,8 @@ INSTANTIATE_TEST_SUITE_P(Of, Calibration, testing::ValuesIn(calibration::experim
 TEST(CalibrationTables, EachHasRowsAndTheNullTableItsControls) {
   const std::vector<Experiment> all = calibration::experiments();
   for (const char* table :
-       {calibration::kTableNull, calibration::kTableFalseFailures, calibration::kTableDetection,
-        calibration::kTableCoverage, calibration::kTableSameCode}) {
+       {calibration::kTableNull, calibration::kTableFalseFailures, calibration::kTableWrongPasses,
+        calibration::kTableDetection, calibration::kTableCoverage, calibration::kTableSameCode}) {
     EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Experiment& e) {
       return e.table == table;
     })) << table;

@@ -39,7 +39,7 @@ TEST(MeanCheck, ProvesTheBoundOfACorrectEstimator) {
   EXPECT_LE(r.bound, 0.005);
   EXPECT_LE(r.interval->low, 1);
   EXPECT_GE(r.interval->high, 1);
-  EXPECT_LE(r.samples, 2 * samples_to_decide(0.005, 1));  // looks double
+  EXPECT_LE(r.samples, samples_to_decide(0.005, 1));
 }
 
 TEST(MeanCheck, FailsATenPercentErrorWithinTwentyThousandSamples) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include <plumbline/verify/detail/budget.h>
@@ -34,12 +35,57 @@ LookPlan plan_looks(std::uint64_t n0, std::uint64_t max_samples, const ErrorBudg
   return plan;
 }
 
+LookPlan plan_mean_looks(std::uint64_t n0, std::uint64_t max_samples, const ErrorBudget& budget) {
+  if (n0 == 0 || max_samples == 0) {
+    throw std::invalid_argument(
+        "plan_mean_looks: the first look and the cap must be at least 1 sample");
+  }
+  LookPlan plan;
+  const double first = static_cast<double>(n0), last = static_cast<double>(max_samples);
+  // A step that fits just so must not be lost to rounding.
+  const double steps = std::floor(std::log(last / first) / std::log(kLookRatio) + 1e-9);
+  for (double k = 0; k < steps; ++k) {
+    const auto n =
+        static_cast<std::uint64_t>(std::round(first * std::pow(last / first, k / steps)));
+    if (plan.samples.empty() || n > plan.samples.back()) plan.samples.push_back(n);
+  }
+  if (plan.samples.empty() || plan.samples.back() < max_samples) {
+    plan.samples.push_back(max_samples);
+  }
+
+  const std::size_t looks = plan.samples.size();
+  if (looks == 1) {
+    plan.fail_level = {budget.fail_level()};
+    plan.pass_level = {budget.pass_level()};
+    return plan;
+  }
+  constexpr double kFailOnLast = 0.25;
+  const double others = static_cast<double>(looks - 1);
+  plan.fail_level.assign(looks, (1 - kFailOnLast) * budget.fail_level() / others);
+  plan.fail_level.back() = kFailOnLast * budget.fail_level();
+  constexpr double kLine = 0.72, kUnseen = 0.15, kPassOnLast = 0.1;
+  constexpr double kEven = 1 - kLine - kUnseen - kPassOnLast;
+  plan.pass_level.assign(looks, kEven * budget.pass_level() / others);
+  plan.pass_level.back() = kPassOnLast * budget.pass_level();
+  plan.line_level = kLine * budget.pass_level();
+  plan.unseen_level = kUnseen * budget.pass_level();
+  return plan;
+}
+
+double line_quantile(double s, double level) {
+  const double log_level = std::log(1 / level);
+  // Below 1e-8 and above 0.01 less is subtracted than could be.
+  const double late = std::min(0.33 * log_level, 0.7 * std::cbrt(std::min(log_level, 18.4)));
+  const double line = log_level - late;
+  return s * s < 2 * line ? std::numeric_limits<double>::infinity() : s / 2 + line / s;
+}
+
 std::uint64_t samples_to_decide(double relative_tolerance, double cv) {
   if (!(relative_tolerance > 0) || !(cv >= 0)) {
     throw std::invalid_argument("samples_to_decide: needs a positive tolerance and cv >= 0");
   }
   const double ratio = cv / relative_tolerance;
-  return static_cast<std::uint64_t>(std::clamp(std::ceil(95 * ratio * ratio), 1.0, 0x1p62));
+  return static_cast<std::uint64_t>(std::clamp(std::ceil(104 * ratio * ratio), 1.0, 0x1p62));
 }
 
 }  // namespace plumbline::verify

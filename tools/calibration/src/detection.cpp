@@ -56,7 +56,7 @@ CheckResult shifted_mean(std::uint64_t seed) {
   MeanOptions o;
   o.reference = 1.001;
   o.tolerance = 0.0005;
-  o.max_samples = 70'000;
+  o.max_samples = 112'000;
   return check_mean(o, sampler(seed, Uniform{0.05}));
 }
 

@@ -10,6 +10,7 @@ std::vector<Experiment> experiments() {
   std::vector<Experiment> list;
   add_null_experiments(list);
   add_false_failure_experiments(list);
+  add_wrong_pass_experiments(list);
   add_detection_experiments(list);
   add_coverage_experiments(list);
   add_same_code_experiments(list);

@@ -12,6 +12,7 @@ namespace plumbline::calibration {
 
 void add_null_experiments(std::vector<Experiment>& list);
 void add_false_failure_experiments(std::vector<Experiment>& list);
+void add_wrong_pass_experiments(std::vector<Experiment>& list);
 void add_detection_experiments(std::vector<Experiment>& list);
 void add_coverage_experiments(std::vector<Experiment>& list);
 void add_same_code_experiments(std::vector<Experiment>& list);

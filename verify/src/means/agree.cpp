@@ -14,7 +14,7 @@ CheckResult check_agreement(const MeanOptions& options, const MomentSampler& a,
                                 "': needs a positive tolerance");
   }
   const Stopwatch watch;
-  const LookPlan plan = plan_looks(options.n0, options.max_samples, options.budget);
+  const LookPlan plan = plan_mean_looks(options.n0, options.max_samples, options.budget);
   Moments moments_a, moments_b;
   CheckResult result;
   std::uint64_t drawn = 0;

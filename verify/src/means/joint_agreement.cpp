@@ -34,8 +34,8 @@ class JointAgreement {
   JointAgreement(const MeanOptions& options, const std::vector<JointQuantity>& quantities)
       : options_(options),
         quantities_(quantities),
-        plan_(plan_looks(options.n0, options.max_samples,
-                         split_budget(options.budget, quantities.size()))),
+        plan_(plan_mean_looks(options.n0, options.max_samples,
+                              split_budget(options.budget, quantities.size()))),
         a_(quantities.size()),
         b_(quantities.size()),
         results_(quantities.size()) {}

@@ -61,7 +61,7 @@ Evidence difference(const Evidence& a, const Evidence& b) {
 
 MeanCheck::MeanCheck(MeanOptions options)
     : options_(std::move(options)),
-      plan_(plan_looks(options_.n0, options_.max_samples, options_.budget)) {
+      plan_(plan_mean_looks(options_.n0, options_.max_samples, options_.budget)) {
   if (!std::isfinite(options_.reference) || !(options_.tolerance > 0) ||
       !(options_.rounding_allowance >= 0)) {
     throw std::invalid_argument("mean check '" + options_.subject +
@@ -106,10 +106,7 @@ void MeanCheck::judge(const Evidence& evidence, std::size_t look) {
   question.tolerance = options_.tolerance * scale;
   question.rounding_allowance = options_.rounding_allowance * scale;
   question.exact_variance = options_.exact_variance;
-  question.fail_level = plan_.fail_level[look];
-  question.pass_level = plan_.pass_level[look];
-  question.last_fail_level = plan_.fail_level.back();
-  question.max_samples = plan_.samples.back();
+  set_look(question, plan_, look);
   result_ = judge_mean(question, evidence);
   if (result_.verdict == Verdict::inconclusive) result_.advice = advice(options_);
   result_.kind = CheckKind::mean;

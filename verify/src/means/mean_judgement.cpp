@@ -102,6 +102,14 @@ std::string exact_variance_doubt(const Evidence& estimated, const Evidence& exac
          "variance is wrong";
 }
 
+/// Standard errors that the bound reaches beyond the estimate: this look's own level and the one
+/// that all looks share are both spent, so the smaller reach holds.
+double pass_quantile(const MeanQuestion& q, const Evidence& e) {
+  const double own = normal_quantile(q.pass_level);
+  if (!(q.line_level > 0 && e.standard_error > 0)) return own;
+  return std::min(own, line_quantile(q.tolerance / e.standard_error, q.line_level));
+}
+
 /// What none of n samples about c showed has a probability of at most ln(1/level)/n, and is taken
 /// to deviate from c by no more than |c|, as a rejected sample does. That bounds the bias that may
 /// hide.
@@ -164,14 +172,14 @@ void judge_nearly_constant(const MeanQuestion& q, const Evidence& e, CheckResult
     judge_zeros(q, e, r);
     return;
   }
-  const auto doubt = [&](std::uint64_t n, double level) {
-    return hoeffding(range, n, level) + hidden_bias(e.estimate, n, level);
+  const auto doubt = [&](std::uint64_t n, double level, double unseen_level) {
+    return hoeffding(range, n, level) + hidden_bias(e.estimate, n, unseen_level);
   };
-  const double half_width = doubt(e.samples, q.pass_level);
+  const double half_width = doubt(e.samples, q.pass_level, std::max(q.pass_level, q.unseen_level));
   const double bound = distance + half_width;
   r.bound = bound;
   r.interval = {e.estimate - half_width, e.estimate + half_width};
-  r.detectable = q.rounding_allowance + doubt(q.max_samples, q.last_fail_level);
+  r.detectable = q.rounding_allowance + doubt(q.max_samples, q.last_fail_level, q.last_fail_level);
   r.p_value =
       excess > 0
           ? std::exp(-static_cast<double>(e.samples) * std::min(1.0, excess / std::abs(e.estimate)))
@@ -180,7 +188,7 @@ void judge_nearly_constant(const MeanQuestion& q, const Evidence& e, CheckResult
     r.reason = "only " + number(e.samples) + " samples; at least 1000 are needed";
   } else if (misses_most(q, e)) {
     r.reason = most_is_missing(q, e);
-  } else if (excess > doubt(e.samples, q.fail_level)) {
+  } else if (excess > doubt(e.samples, q.fail_level, q.fail_level)) {
     r.verdict = Verdict::fail;
     r.reason =
         "all samples are close to " + number(e.estimate) + ", the answer is " + number(q.reference);
@@ -204,7 +212,8 @@ double detectable_bias(const MeanQuestion& q, const Evidence& e) {
 
 void judge_difference(const MeanQuestion& q, const Evidence& e, const std::string& doubt,
                       CheckResult& r) {
-  const Interval pass = mean_interval(e, q.pass_level);
+  const Interval pass =
+      skewed_interval(e.estimate, e.standard_error, e.skewness, pass_quantile(q, e));
   const Interval fail = mean_interval(e, q.fail_level / 2);
   const double bound = std::max(pass.high - q.reference, q.reference - pass.low);
   const double no_difference = q.rounding_allowance + unseen(q, e, e.samples, q.fail_level);
@@ -232,16 +241,23 @@ void judge_difference(const MeanQuestion& q, const Evidence& e, const std::strin
 
 }  // namespace
 
+void set_look(MeanQuestion& q, const LookPlan& plan, std::size_t look) {
+  q.fail_level = plan.fail_level[look];
+  q.pass_level = plan.pass_level[look];
+  q.line_level = plan.line_level;
+  q.unseen_level = plan.unseen_level;
+  q.last_fail_level = plan.fail_level.back();
+  q.max_samples = plan.samples.back();
+}
+
 MeanQuestion agreement_question(const MeanOptions& options, const LookPlan& plan, std::size_t look,
                                 double scale) {
   MeanQuestion q;
   q.reference = options.reference;
   q.tolerance = options.tolerance * scale;
   q.rounding_allowance = options.rounding_allowance * scale;
-  q.fail_level = plan.fail_level[look];
-  q.pass_level = plan.pass_level[look];
-  q.last_fail_level = plan.fail_level.back();
-  q.max_samples = 2 * plan.samples.back();
+  set_look(q, plan, look);
+  q.max_samples *= 2;
   return q;
 }
 

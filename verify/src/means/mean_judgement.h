@@ -21,10 +21,15 @@ struct MeanQuestion {
   double rounding_allowance = 0;
   std::optional<double> exact_variance;  ///< of one sample
   double fail_level = 0;                 ///< two-sided, at this look
-  double pass_level = 0;                 ///< one-sided, at this look
+  double pass_level = 0;                 ///< one-sided, at this look alone
+  double line_level = 0;                 ///< as LookPlan
+  double unseen_level = 0;               ///< as LookPlan
   double last_fail_level = 0;            ///< two-sided, at the last look
   std::uint64_t max_samples = 0;         ///< at the last look
 };
+
+/// Takes over what a plan says of a look.
+void set_look(MeanQuestion& question, const LookPlan& plan, std::size_t look);
 
 /// What a look of two estimates against each other asks.
 ///

@@ -55,13 +55,13 @@ struct MeanOptions : CheckSettings {
   /// stands.
   std::optional<double> exact_variance;
 
-  std::uint64_t n0 = 1250;              ///< samples at the first look: 20,000 is the fifth
+  std::uint64_t n0 = 1250;              ///< samples at the first look
   std::uint64_t max_samples = 1 << 26;  ///< the cap, where the check stays undecided
   Verdict expected = Verdict::pass;
 };
 
 /// Shows |bias| ≤ tolerance, or bias ≠ 0, looking at growing sample counts: equivalence test and
-/// difference test at once, group-sequential, both levels spent over the looks.
+/// difference test at once, group-sequential, both levels spent over the looks (plan_mean_looks).
 ///
 /// - `fail` if the bias is proven to exceed the rounding allowance, at the level of the error
 ///   budget; also if any sample was not finite.

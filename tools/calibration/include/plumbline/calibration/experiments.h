@@ -26,6 +26,7 @@ struct Experiment {
 
 inline constexpr const char* kTableNull = "p-values of correct code";
 inline constexpr const char* kTableFalseFailures = "false failures";
+inline constexpr const char* kTableWrongPasses = "wrong passes";
 inline constexpr const char* kTableDetection = "detection";
 inline constexpr const char* kTableCoverage = "coverage";
 inline constexpr const char* kTableSameCode = "same code twice";
