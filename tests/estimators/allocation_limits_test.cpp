@@ -102,6 +102,7 @@ verify::CheckResult check_limit(const Integral1d& integral, Allocation policy, d
   options.rounding_allowance = 0.01;
   options.expected = expected;
   options.seed = check_seed(options.subject);
+  options.n0 = 1'000;  // the fewest that a check takes are enough for most
   options.max_samples = nightly() ? 1 << 16 : 1 << 13;
   return check_mean(options, runs(options.seed, [&](verify::Random& random) {
                       return last_share(integral, policy, random);

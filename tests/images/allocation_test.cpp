@@ -21,12 +21,15 @@ namespace {
 using renderer::Allocation;
 using renderer::Scene;
 
-renderer::SceneDescription small_scene(const std::string& name) {
+renderer::SceneDescription small_scene(const std::string& name, int width = 8, int height = 6) {
   auto description = renderer::load_scene(analytic::scene_file(name));
-  description.camera.width = 8;
-  description.camera.height = 6;
+  description.camera.width = width;
+  description.camera.height = height;
   return description;
 }
+
+/// Of so few pixels that the fewest images that a check takes decide most of them.
+Scene tiny_scene() { return make_scene(small_scene("sphere_light", 4, 3)); }
 
 renderer::RenderOptions allocated(Allocation policy, std::uint64_t seed) {
   renderer::RenderOptions options;
@@ -54,7 +57,7 @@ ColourSampler allocated_images(const Scene& scene, Allocation policy, std::uint6
 class AllocatedImage : public testing::TestWithParam<Allocation> {};
 
 TEST_P(AllocatedImage, MeanIsTheClosedFormForEveryPolicy) {
-  const Scene scene = make_scene(small_scene("sphere_light"));
+  const Scene scene = tiny_scene();
   verify::MeanOptions options;
   options.subject = "sphere_light/allocation ";
   options.subject.append(name(GetParam()));
@@ -76,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Policies, AllocatedImage, testing::ValuesIn(renderer::k
                          });
 
 TEST(AllocatedImageControl, AnswerOffByOnePercentFails) {
-  const Scene scene = make_scene(small_scene("sphere_light"));
+  const Scene scene = tiny_scene();
   verify::MeanOptions options;
   options.subject = "control/sphere_light, allocation root-v2, answer off by 1 %";
   options.seed = check_seed(options.subject);
