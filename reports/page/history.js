@@ -179,7 +179,7 @@ function failingRunCard(run) {
   return element('article', {className: 'card'},
     element('h4', {}, `Seed ${run.seed}`, element('span', {className: 'aside'}, `${run.time.slice(0, 10)} · ${run.commit} · ${countOf(run.tests, 'test')}`)),
     run.failures.map((name) => {
-      const command = `PLUMBLINE_SEED=${run.seed} ctest --preset release -R '^${quoted(name)}$'`;
+      const command = `PLUMBLINE_NIGHTLY=gate PLUMBLINE_SEED=${run.seed} ctest --preset release -R '^${quoted(name)}$'`;
       return element('div', {className: 'replay'}, element('code', {}, command), copyButton(command));
     }));
 }

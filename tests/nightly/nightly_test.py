@@ -178,3 +178,10 @@ class Sources(unittest.TestCase):
 
 if __name__ == "__main__":
     unittest.main()
+class Level(unittest.TestCase):
+    def test_every_run_of_checks_is_held_to_that_of_the_night(self):
+        nights = {p.name: {e.command[1] for e in p.efforts if e.command[0] == "env"} for p in parts.parts("x")}
+        self.assertEqual({name: words for name, words in nights.items() if words}, {
+            "gate": {"PLUMBLINE_NIGHTLY=gate"}, "suites": {"PLUMBLINE_NIGHTLY=1"}, "calibration": {"PLUMBLINE_NIGHTLY=1"}})
+
+

@@ -161,7 +161,7 @@ class History(PageTest):
         text = self.one("[data-part=seeds]").text
         self.assertIn("240 times", text)
         self.assertIn("1 run had a failure", text)
-        self.assertIn("PLUMBLINE_SEED=18446744073709551614 ctest --preset release -R '^Sphere\\.Mean/0$'", text)
+        self.assertIn("PLUMBLINE_NIGHTLY=gate PLUMBLINE_SEED=18446744073709551614 ctest --preset release -R '^Sphere\\.Mean/0$'", text)
 
     def test_tiles_lead_to_their_parts(self):
         self.resize(380)

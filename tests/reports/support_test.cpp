@@ -1,5 +1,6 @@
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
+#include <plumbline_tests/scoped_variable.h>
 #include <plumbline_tests/support.h>
 #include <stdlib.h>
 
@@ -15,28 +16,6 @@
 
 namespace plumbline::tests {
 namespace {
-
-/// Sets an environment variable for the length of a test.
-class ScopedVariable {
- public:
-  ScopedVariable(const char* name, const std::string& value) : name_(name) {
-    if (const char* old = ::getenv(name)) old_ = old;
-    ::setenv(name, value.c_str(), 1);
-  }
-  ~ScopedVariable() {
-    if (old_) {
-      ::setenv(name_, old_->c_str(), 1);
-    } else {
-      ::unsetenv(name_);
-    }
-  }
-  ScopedVariable(const ScopedVariable&) = delete;
-  ScopedVariable& operator=(const ScopedVariable&) = delete;
-
- private:
-  const char* name_;
-  std::optional<std::string> old_;
-};
 
 verify::CheckResult result_with(verify::Verdict verdict, verify::Verdict expected) {
   verify::CheckResult result = sample_check();
@@ -122,6 +101,12 @@ TEST(ReplayCommand, NamesThisTestAsCtestKnowsIt) {
 TEST(ReplayCommand, RepeatsTheNightAtNight) {
   const ScopedVariable night("PLUMBLINE_NIGHTLY", "1");
   EXPECT_EQ(replay_command().rfind("PLUMBLINE_NIGHTLY=1 PLUMBLINE_SEED=", 0), 0u);
+}
+
+TEST(ReplayCommand, RepeatsTheGateAtNight) {
+  const ScopedVariable night("PLUMBLINE_NIGHTLY", "gate");
+  EXPECT_FALSE(nightly());
+  EXPECT_EQ(replay_command().rfind("PLUMBLINE_NIGHTLY=gate PLUMBLINE_SEED=", 0), 0u);
 }
 
 TEST(ReplayCommand, StandsUnderAFailureThatDoesNotSayIt) {

@@ -68,6 +68,11 @@ double seconds_since_last_check() {
   return static_cast<double>(now_ms - began_ms) * 1e-3;
 }
 
+std::string night_words() {
+  const char* text = std::getenv("PLUMBLINE_NIGHTLY");
+  return text == nullptr ? "" : text;
+}
+
 /// Checks of data that was made before: its making is the larger part of what they cost.
 bool judges_what_it_is_given(verify::CheckKind kind) {
   return kind == verify::CheckKind::variance_ratio || kind == verify::CheckKind::proportion ||
@@ -134,15 +139,14 @@ verify::ContractOptions contract_options(std::string_view subject) {
   return options;
 }
 
-bool nightly() {
-  const char* text = std::getenv("PLUMBLINE_NIGHTLY");
-  return text != nullptr && std::string_view(text) == "1";
-}
+bool nightly() { return night_words() == "1"; }
 
 std::string replay_command() {
   const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
   if (test == nullptr) return {};
-  return std::string(nightly() ? "PLUMBLINE_NIGHTLY=1 " : "") +
+  const std::string night = night_words();
+  const bool at_night = !night.empty() && night != "0";
+  return (at_night ? "PLUMBLINE_NIGHTLY=" + night + " " : "") +
          "PLUMBLINE_SEED=" + std::to_string(run_seed()) + " " PLUMBLINE_CTEST " -R '^" +
          quoted_for_regex(ctest_name(*test)) + "$'";
 }

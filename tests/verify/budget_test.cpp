@@ -1,20 +1,30 @@
 #include <gtest/gtest.h>
+#include <plumbline_tests/scoped_variable.h>
+#include <plumbline_tests/support.h>
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 
 #include <plumbline/verify/detail/budget.h>
 #include <plumbline/verify/detail/random.h>
+#include <plumbline/verify/history/confidence_sequence.h>
+#include <plumbline/verify/mean.h>
+#include <plumbline/verify/ratio.h>
 
 namespace plumbline::verify {
 namespace {
 
 double sum(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 
+using tests::ScopedVariable;
+
 TEST(Budget, GivesEachCheckTheSameLevelWhateverElseRuns) {
+  const ScopedVariable by_day("PLUMBLINE_NIGHTLY", "");
   EXPECT_DOUBLE_EQ(ErrorBudget{}.fail_level(), 1e-10);
   EXPECT_NEAR(ErrorBudget{}.pass_level(), 1e-3, 1e-15);
 }
@@ -22,7 +32,7 @@ TEST(Budget, GivesEachCheckTheSameLevelWhateverElseRuns) {
 TEST(Budget, LooksSpendBothLevelsAndNoMore) {
   for (const std::uint64_t cap : {1u, 1000u, 1250u, 1251u, 20'000u, 95'000'000u}) {
     const LookPlan plan = plan_looks(1250, cap, ErrorBudget{});
-    EXPECT_NEAR(sum(plan.fail_level), 1e-10, 1e-22) << cap;
+    EXPECT_NEAR(sum(plan.fail_level), ErrorBudget{}.fail_level(), 1e-22) << cap;
     EXPECT_NEAR(sum(plan.pass_level), 1e-3, 1e-12) << cap;
     EXPECT_EQ(plan.samples.back(), cap);
     for (std::size_t k = 1; k < plan.samples.size(); ++k) {
@@ -144,6 +154,7 @@ TEST(Budget, TheLineIsWrongAtAllLooksTogetherNoMoreOftenThanItsLevel) {
 }
 
 TEST(Budget, SamplesToDecideIsTheCapOfTheStatisticsPolicy) {
+  const ScopedVariable by_day("PLUMBLINE_NIGHTLY", "0");
   EXPECT_NEAR(static_cast<double>(samples_to_decide(0.001, 1)), 1.04e8, 1);
   EXPECT_NEAR(static_cast<double>(samples_to_decide(0.005, 1)), 4.16e6, 1);
 }
@@ -194,6 +205,83 @@ TEST(Budget, HalfOfAllRunsNeedLessThanAFifthOfIt) {
   // Looks are a factor of 1.19 apart, and the median is one of them.
   EXPECT_GT(needed[kRuns / 2], 0.18 / kLookRatio);
   EXPECT_LT(needed[kRuns / 2], 0.18 * kLookRatio);
+}
+
+TEST(NightLevel, IsInForceWhereTheEnvironmentSaysSo) {
+  for (const char* night : {"1", "gate"}) {
+    const ScopedVariable variable("PLUMBLINE_NIGHTLY", night);
+    EXPECT_DOUBLE_EQ(ErrorBudget{}.fail_level(), 1e-10 / 365) << night;
+    EXPECT_DOUBLE_EQ(MeanOptions{}.budget.fail_level(), history::night_budget().fail_level());
+    EXPECT_DOUBLE_EQ(ErrorBudget{}.pass_confidence, 0.999);
+    // 3.719 + 7.302 standard errors, where it is 3.719 + 6.467 by day.
+    EXPECT_NEAR(static_cast<double>(samples_to_decide(0.001, 1)), 1.22e8, 1);
+  }
+  const ScopedVariable night("PLUMBLINE_NIGHTLY", "1");
+  EXPECT_DOUBLE_EQ(ErrorBudget{.suite_level = 0.5}.suite_level, 0.5);
+}
+
+TEST(NightLevel, WhatFailsByDayAndLiesWithinTheNightsLevelIsNoFailureOfANight) {
+  // One look at 125,000 numbers with mean ½ and standard deviation √(1/12) exactly: 6.9 standard
+  // errors off. By day 6.5 of them are a failure, at night 7.3.
+  const auto verdict = [](const char* night) {
+    const ScopedVariable variable("PLUMBLINE_NIGHTLY", night);
+    constexpr int kCount = 125'000;
+    MeanOptions off;
+    off.n0 = off.max_samples = kCount;
+    off.reference = 0.5 + 6.9 * std::sqrt(1 / 12.0 / kCount);
+    return check_mean(off,
+                      [](std::uint64_t first, std::uint64_t count) {
+                        Moments moments;
+                        for (std::uint64_t i = first; i < first + count; ++i) {
+                          moments.add((static_cast<double>(i) + 0.5) / kCount);
+                        }
+                        return moments;
+                      })
+        .verdict;
+  };
+  EXPECT_EQ(verdict(""), Verdict::fail);
+  EXPECT_EQ(verdict("1"), Verdict::inconclusive);
+}
+
+/// Of so many years, the share with a night on which a right mean fails, against 5 %, which are
+/// spent each `period` nights, over 8 checks of which one is made.
+CheckResult red_years(const char* subject, std::uint64_t years, double period, Verdict expected) {
+  ProportionOptions claim;
+  claim.subject = subject;
+  claim.seed = tests::check_seed(subject);
+  claim.at_most = 0.05;
+  claim.expected = expected;
+  MeanOptions check;
+  check.reference = 0.5;
+  check.n0 = check.max_samples = 1000;  // the fewest that are judged
+  check.budget.suite_level = claim.at_most / period;
+  check.budget.max_checks = 8;
+  Random random(claim.seed);
+  std::uint64_t red = 0;
+  for (std::uint64_t year = 0; year < years; ++year) {
+    bool fails = false;
+    for (int night = 0; night < 365 && !fails; ++night) {
+      const CheckResult r = check_mean(check, [&](std::uint64_t, std::uint64_t count) {
+        Moments moments;
+        for (std::uint64_t i = 0; i < count; ++i) moments.add(random.uniform());
+        return moments;
+      });
+      fails = r.verdict == Verdict::fail;
+    }
+    red += fails ? 1u : 0u;
+  }
+  return check_proportion(claim, red, years);
+}
+
+TEST(NightLevel, YearsOfNightsAreAsSeldomRedAsStated) {
+  // An eighth of 5 % is made use of: at most 2.5 years of 400 are expected, and a tenth of that,
+  // since a fail needs what none of 1,000 samples may have shown on top; more than eight leave the
+  // claim undecided.
+  tests::expect_verdict(red_years("budget/years of nights", 400, 365, Verdict::pass));
+}
+
+TEST(NightLevel, NightsWithTheLevelOfARunMakeRedYears) {
+  tests::expect_verdict(red_years("budget/years of gates", 100, 1, Verdict::fail));
 }
 
 }  // namespace

@@ -1,11 +1,32 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 
 #include <plumbline/verify/detail/budget.h>
 
+#include "distributions.h"
+
 namespace plumbline::verify {
+
+namespace {
+
+// Of the level of a pass: what is split evenly over the looks, and what the last look takes of the
+// rest.
+constexpr double kEven = 0.2, kOnLast = 0.7;
+
+// Of the level of a pass, what a mean check spends at its last look.
+constexpr double kPassOnLast = 0.1;
+
+}  // namespace
+
+double run_level() {
+  const char* text = std::getenv("PLUMBLINE_NIGHTLY");
+  const std::string_view night = text == nullptr ? "" : text;
+  return night.empty() || night == "0" ? kRunLevel : kNightLevel;
+}
 
 LookPlan plan_looks(std::uint64_t n0, std::uint64_t max_samples, const ErrorBudget& budget) {
   if (n0 == 0 || max_samples == 0) {
@@ -24,7 +45,6 @@ LookPlan plan_looks(std::uint64_t n0, std::uint64_t max_samples, const ErrorBudg
 
   const std::size_t looks = plan.samples.size();
   plan.fail_level.assign(looks, budget.fail_level() / static_cast<double>(looks));
-  constexpr double kEven = 0.2, kOnLast = 0.7;
   plan.pass_level.assign(looks, kEven * budget.pass_level() / static_cast<double>(looks));
   double left = (1 - kEven) * budget.pass_level();
   for (std::size_t k = looks; k-- > 0;) {
@@ -63,9 +83,9 @@ LookPlan plan_mean_looks(std::uint64_t n0, std::uint64_t max_samples, const Erro
   const double others = static_cast<double>(looks - 1);
   plan.fail_level.assign(looks, (1 - kFailOnLast) * budget.fail_level() / others);
   plan.fail_level.back() = kFailOnLast * budget.fail_level();
-  constexpr double kLine = 0.72, kUnseen = 0.15, kPassOnLast = 0.1;
-  constexpr double kEven = 1 - kLine - kUnseen - kPassOnLast;
-  plan.pass_level.assign(looks, kEven * budget.pass_level() / others);
+  constexpr double kLine = 0.72, kUnseen = 0.15;
+  constexpr double kRest = 1 - kLine - kUnseen - kPassOnLast;
+  plan.pass_level.assign(looks, kRest * budget.pass_level() / others);
   plan.pass_level.back() = kPassOnLast * budget.pass_level();
   plan.line_level = kLine * budget.pass_level();
   plan.unseen_level = kUnseen * budget.pass_level();
@@ -80,12 +100,15 @@ double line_quantile(double s, double level) {
   return s * s < 2 * line ? std::numeric_limits<double>::infinity() : s / 2 + line / s;
 }
 
-std::uint64_t samples_to_decide(double relative_tolerance, double cv) {
+std::uint64_t samples_to_decide(double relative_tolerance, double cv, const ErrorBudget& budget) {
   if (!(relative_tolerance > 0) || !(cv >= 0)) {
     throw std::invalid_argument("samples_to_decide: needs a positive tolerance and cv >= 0");
   }
+  const double reach = normal_quantile(kPassOnLast * budget.pass_level()) +
+                       normal_quantile(budget.fail_level() / 2);
   const double ratio = cv / relative_tolerance;
-  return static_cast<std::uint64_t>(std::clamp(std::ceil(104 * ratio * ratio), 1.0, 0x1p62));
+  const double samples = std::ceil(std::ceil(reach * reach) * ratio * ratio);
+  return static_cast<std::uint64_t>(std::clamp(samples, 1.0, 0x1p62));
 }
 
 }  // namespace plumbline::verify

@@ -93,7 +93,7 @@ std::string too_early(const BatchMoments& all, double target) {
 
 ErrorBudget night_budget() {
   ErrorBudget budget;
-  budget.suite_level /= 365;
+  budget.suite_level = kNightLevel;
   return budget;
 }
 

@@ -21,7 +21,8 @@ std::uint64_t run_seed();
 /// share a stream and all of them change with the run's seed.
 std::uint64_t check_seed(std::string_view subject);
 
-/// Whether the nightly configuration asks for full grids (PLUMBLINE_NIGHTLY=1).
+/// Whether the nightly configuration asks for full grids (PLUMBLINE_NIGHTLY=1). With "gate" a night
+/// runs what the gate does; both are held to the night's level (verify::run_level).
 bool nightly();
 
 /// Options of the contract's checks, seeded for the subject. At night as users have them; in the

@@ -5,17 +5,27 @@
 
 namespace plumbline::verify {
 
+/// Chance of a false failure that a run may have: 1e-4, with fresh seeds.
+inline constexpr double kRunLevel = 1e-4;
+
+/// That of all runs of one night together, so that a year of nights has kRunLevel.
+inline constexpr double kNightLevel = kRunLevel / 365;
+
+/// kNightLevel where the environment variable PLUMBLINE_NIGHTLY is set and neither empty nor "0":
+/// this process is part of a night. Else kRunLevel.
+double run_level();
+
 /// How much error the whole suite may make, and what that leaves for one check.
 ///
 /// The chance that a correct tree fails anywhere is at most `suite_level`. It is split over a fixed
 /// bound on the number of checks, so the level of one check does not depend on which others run. A
 /// run of more checks than that is refused by `plumbline report`.
 struct ErrorBudget {
-  double suite_level = 1e-4;             ///< chance of a false failure in a whole run, fresh seeds
+  double suite_level = run_level();      ///< chance of a false failure in a whole run, fresh seeds
   std::uint64_t max_checks = 1'000'000;  ///< at least as many as a run ever makes
   double pass_confidence = 0.999;        ///< with which the bound of a pass holds
 
-  /// Level of the null hypothesis of one check: 1e-10 by default.
+  /// Level of the null hypothesis of one check: 1e-10 by default, 2.7e-13 at night.
   double fail_level() const { return suite_level / static_cast<double>(max_checks); }
 
   /// Chance that the bound of a pass is wrong.
@@ -79,8 +89,9 @@ inline constexpr double kLookRatio = 1.189207115002721;
 ///         Stat. Soc. A 132:2)
 double line_quantile(double s, double level);
 
-/// Samples after which a correct estimator has proven the tolerance with a chance of 1 − 1e-10, the
-/// level of one check: 104 (cv/tolerance)². Half of all runs need 0.18 of it.
+/// Samples after which a correct estimator has proven the tolerance but with a chance as small as
+/// the level of one check: 104 (cv/tolerance)² at 1e-10, 122 (cv/tolerance)² at night. Half of all
+/// runs need 0.18 of it.
 ///
 /// A pass at the last look needs |error| + z(1e-4) se ≤ tolerance, where 1e-4 is the least that
 /// plan_mean_looks spends there and z = 3.719; a correct estimate, normally distributed, has
@@ -88,6 +99,7 @@ double line_quantile(double s, double level);
 ///
 /// @param relative_tolerance  |bias|/mean, > 0
 /// @param cv                  standard deviation of one sample over its mean
-std::uint64_t samples_to_decide(double relative_tolerance, double cv);
+std::uint64_t samples_to_decide(double relative_tolerance, double cv,
+                                const ErrorBudget& budget = {});
 
 }  // namespace plumbline::verify

@@ -31,8 +31,9 @@ struct SequenceBudget {
   double pass_level() const { return 1 - pass_confidence; }
 };
 
-/// The budget for the checks of one night by themselves: 1e-4/365 for all of them, so that a year
-/// of nights is what one run of the gate is: 2.7e-13 for each of a million checks.
+/// The budget for the checks of one night by themselves, in all of its runs: 1e-4/365 for all of
+/// them, so that a year of nights is what one run of the gate is: 2.7e-13 for each of a million
+/// checks. It is what an ErrorBudget is where PLUMBLINE_NIGHTLY is set (`run_level`).
 ErrorBudget night_budget();
 
 /// How many standard errors a mean of independent values may stray at any time: P(it ever strays
