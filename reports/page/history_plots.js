@@ -246,7 +246,7 @@ function sequenceColumns(ticked, redraw) {
     textColumn('Kind', (s) => s.check),
     {name: 'Verdict', sort: (s) => s.verdict, cell: sequenceBadge},
     numberColumn('Nights', (s) => s.nights, String, {title: 'Since it began, with the same code'}),
-    numberColumn('Bound', (s) => lastOf(s.bound), (x) => formatNumber(x, 3), {title: '|bias| is proven to be below'}),
+    numberColumn('Bound', (s) => lastOf(s.bound), (x) => formatNumber(x, 3), {title: 'What is proven of |bias|, of a difference, or of the distance of a share or the logarithm of a ratio from the middle of its claim'}),
     numberColumn('of tolerance', (s) => lastOf(s.bound) / toNumber(s.tolerance), formatPercent),
     numberColumn('Evidence', (s) => Math.exp(lastOf(s.evidence)), (x) => formatNumber(x, 3),
       {title: 'Against what a test says, by all nights: that it is at least this large has a chance of one over it at most'}),

@@ -24,6 +24,8 @@ using verify::Verdict;
 constexpr std::size_t kNights = 60, kStep = 35;
 constexpr double kError = 1e-3;  // standard error of a night's mean
 constexpr std::uint64_t kSamples = 65'536;
+constexpr double kLogError = 0.1;  // standard error of a night's logarithm of a ratio
+constexpr std::uint64_t kTrials = 200;
 
 verify::CheckResult mean_check(const std::string& subject, double estimate) {
   verify::CheckResult check;
@@ -46,6 +48,44 @@ verify::CheckResult chi_square_check(const std::string& subject, double p_value)
   check.subject = subject;
   check.verdict = Verdict::pass;
   check.p_value = p_value;
+  return check;
+}
+
+verify::CheckResult agreement_check(const std::string& subject, double difference) {
+  verify::CheckResult check = mean_check(subject, difference);
+  check.kind = verify::CheckKind::agreement;
+  check.reference = 0;
+  check.figures.emplace_back(verify::Figure::mean_of_a, 1 + difference);
+  check.figures.emplace_back(verify::Figure::mean_of_b, 1);
+  return check;
+}
+
+/// A ratio of which at least 2 and at most 3 is claimed.
+verify::CheckResult ratio_check(const std::string& subject, double log_ratio) {
+  verify::CheckResult check;
+  check.kind = verify::CheckKind::variance_ratio;
+  check.subject = subject;
+  check.verdict = Verdict::pass;
+  check.estimate = std::exp(log_ratio);
+  check.figures = {{verify::Figure::largest_batch_of_a, 0.1},
+                   {verify::Figure::largest_batch_of_b, 0.1},
+                   {"batches", 32},
+                   {verify::Figure::at_least, 2},
+                   {verify::Figure::at_most, 3},
+                   {"error of the logarithm", kLogError}};
+  return check;
+}
+
+/// A share of which at least 0.9 is claimed.
+verify::CheckResult proportion_check(const std::string& subject, std::uint64_t hits) {
+  verify::CheckResult check;
+  check.kind = verify::CheckKind::proportion;
+  check.subject = subject;
+  check.verdict = Verdict::pass;
+  check.samples = kTrials;
+  check.figures = {{verify::Figure::hits, static_cast<double>(hits)},
+                   {verify::Figure::at_least, 0.9},
+                   {verify::Figure::at_most, 1}};
   return check;
 }
 
@@ -187,6 +227,84 @@ TEST_F(ReportOfSixtyNights, CountsRunsOfTheGateAndSurvivesTheRoundTrip) {
   ASSERT_EQ(record_.failing_gate_runs.size(), 1u);
   EXPECT_EQ(record_.failing_gate_runs[0].seed, 5u);
   EXPECT_EQ(to_json(reports::parse_history(to_json(record_))), to_json(record_));
+}
+
+/// Sixty nights of checks of the other kinds, of which one is right and one wrong by less than a
+/// night shows.
+class OtherKinds : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const ScratchDirectory scratch;
+    History history(scratch / "history.db", History::Access::append);
+    std::mt19937_64 random(check_seed("history/other kinds"));
+    std::normal_distribution<double> normal;
+    std::binomial_distribution<std::uint64_t> right(kTrials, 0.95), wrong(kTrials, 0.85);
+    for (std::size_t i = 0; i < kNights; ++i) {
+      reports::HistoryData data;
+      data.checks = {agreement_check("agreement/right", kError * normal(random)),
+                     agreement_check("agreement/wrong", kError * (2.5 + normal(random))),
+                     ratio_check("ratio/right", std::log(2.45) + kLogError * normal(random)),
+                     ratio_check("ratio/wrong", std::log(1.5) + kLogError * normal(random)),
+                     proportion_check("proportion/right", right(random)),
+                     proportion_check("proportion/wrong", wrong(random))};
+      // What says nothing of nights together: the worst of several, and one batch that decides.
+      data.checks.push_back(agreement_check("agreement/worst", 2.5 * kError));
+      data.checks.back().figures.emplace_back("quantities", 12);
+      data.checks.push_back(ratio_check("ratio/tail", 0));
+      data.checks.back().figures[0] = {verify::Figure::largest_batch_of_a, 0.3};
+      // A tolerance that is a share of the night's own means is the same question.
+      *data.checks[0].tolerance *= 1 + 1e-3 * normal(random);
+      history.append(night(i), data);
+    }
+    record_ = reports::judge_runs(history, here(), "nightly");
+  }
+
+  static const TrackedSequence& sequence(const std::string& subject) {
+    for (const TrackedSequence& s : record_.sequences) {
+      if (s.subject == subject) return s;
+    }
+    throw std::runtime_error("no sequence of " + subject);
+  }
+
+  inline static HistoryRecord record_;
+};
+
+TEST_F(OtherKinds, WhatIsWrongByLessThanANightShowsIsFound) {
+  EXPECT_EQ(record_.sequences.size(), 6u);
+  for (const char* kind : {"agreement", "ratio", "proportion"}) {
+    const TrackedSequence& wrong = sequence(std::string(kind) + "/wrong");
+    EXPECT_EQ(wrong.verdict, Verdict::fail) << kind;
+    EXPECT_EQ(wrong.nights, kNights);
+    EXPECT_FALSE(wrong.reason.empty());
+    EXPECT_NE(sequence(std::string(kind) + "/right").verdict, Verdict::fail) << kind;
+  }
+}
+
+TEST_F(OtherKinds, OneNightOfWhatIsWrongIsNoFailure) {
+  const ScratchDirectory scratch;
+  History history(scratch / "history.db", History::Access::append);
+  history.append(night(0), {{agreement_check("agreement/wrong", 2.5 * kError),
+                             ratio_check("ratio/wrong", std::log(1.5)),
+                             proportion_check("proportion/wrong", 17 * kTrials / 20)},
+                            {},
+                            {}});
+  const HistoryRecord record = reports::judge_runs(history, here(), "nightly");
+  EXPECT_EQ(record.sequences.size(), 3u);
+  for (const TrackedSequence& s : record.sequences) {
+    EXPECT_NE(s.verdict, Verdict::fail) << s.subject;
+  }
+}
+
+TEST_F(OtherKinds, BoundsShrinkAndEndWithinTheClaim) {
+  for (const char* subject : {"agreement/right", "ratio/right", "proportion/right"}) {
+    const TrackedSequence& right = sequence(subject);
+    EXPECT_EQ(right.verdict, Verdict::pass) << subject;
+    EXPECT_LT(right.bound[kNights - 1], right.bound[2]) << subject;
+    EXPECT_LE(right.bound[kNights - 1], *right.tolerance) << subject;
+  }
+  // From the middle of ln 2 and ln 3, and of 0.9 and 1.
+  EXPECT_NEAR(*sequence("ratio/right").tolerance, std::log(1.5) / 2, 1e-12);
+  EXPECT_NEAR(*sequence("proportion/right").tolerance, 0.05, 1e-12);
 }
 
 TEST(HistorySequences, BeginAgainWhereTheCodeOrTheAnswerIsAnother) {

@@ -13,6 +13,7 @@
 #include <plumbline/verify/ratio.h>
 
 #include "distributions.h"
+#include "history_lifetimes.h"
 #include "history_noise.h"
 
 namespace plumbline::verify::history {
@@ -29,30 +30,6 @@ BatchMoments night_of(Random& random, double bias, Noise noise) {
   BatchMoments night;
   for (std::uint64_t i = 0; i < kBatchesANight; ++i) night.add(bias + noise(random), 1000);
   return night;
-}
-
-/// One sequence, whose fails may come with a probability that can be simulated.
-SequenceBudget inflated(double level) {
-  SequenceBudget budget;
-  budget.life_level = level;
-  budget.max_sequences = 1;
-  return budget;
-}
-
-/// Of so many lifetimes, the share in which something ever happens, against a claim.
-template <class Happens>
-CheckResult share_of_lifetimes(const char* subject, std::uint64_t lifetimes, double at_least,
-                               double at_most, Verdict expected, Happens happens) {
-  ProportionOptions options;
-  options.subject = subject;
-  options.seed = tests::check_seed(subject);
-  options.at_least = at_least;
-  options.at_most = at_most;
-  options.expected = expected;
-  Random random(options.seed);
-  std::uint64_t hits = 0;
-  for (std::uint64_t i = 0; i < lifetimes; ++i) hits += happens(random) ? 1u : 0u;
-  return check_proportion(options, hits, lifetimes);
 }
 
 /// Whether a sequence of batches around the right answer ever fails.

@@ -125,7 +125,10 @@ CheckResult judge_ratio(const VarianceRatioOptions& options, const LeaveOneOut& 
   r.figures = {{Figure::variance_of_a, a.all},
                {Figure::variance_of_b, b.all},
                {Figure::largest_batch_of_a, a.largest_share},
-               {Figure::largest_batch_of_b, b.largest_share}};
+               {Figure::largest_batch_of_b, b.largest_share},
+               {"batches", static_cast<double>(a.without.size())}};
+  if (options.at_least) r.figures.emplace_back(Figure::at_least, *options.at_least);
+  if (options.at_most) r.figures.emplace_back(Figure::at_most, *options.at_most);
   if (a.non_finite + b.non_finite > 0) {
     r.verdict = Verdict::fail;
     r.reason = number(a.non_finite + b.non_finite) + " samples or batches were not finite";

@@ -57,13 +57,18 @@ struct TrackedNumber {
 
 /// A check over the nights. Of `bound` and `evidence` one is as long as the axis, with NaN where a
 /// night adds nothing, to four digits; the other is empty.
+///
+/// What is bounded: of a mean its bias; of an agreement the difference; of a proportion, and of the
+/// logarithm of a ratio, the distance from the middle of the claim, of which the tolerance is half
+/// the width. A ratio that is claimed on one side alone has no tolerance, and half the width of its
+/// interval is given.
 struct TrackedSequence {
   verify::CheckKind check = verify::CheckKind::mean;
   std::string subject;
   verify::Verdict verdict = verify::Verdict::inconclusive;  ///< of all nights since it began
   std::uint64_t nights = 0;                                 ///< since it began, with the same code
-  std::optional<double> tolerance;                          ///< of a mean, in its units
-  std::vector<double> bound;     ///< of a mean: |bias| is proven to be below, after that night
+  std::optional<double> tolerance;                          ///< of what is bounded
+  std::vector<double> bound;     ///< what is bounded is proven to be below, after that night
   std::vector<double> evidence;  ///< of a test: ln of the evidence against, after that night
   std::string reason;            ///< why it failed
 

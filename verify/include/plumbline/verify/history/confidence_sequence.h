@@ -147,6 +147,35 @@ struct RatioSequenceOptions {
 /// they state or what they scatter by, whichever is larger.
 CheckResult judge_sequence(const RatioSequence& sequence, const RatioSequenceOptions& options);
 
+/// A probability over the nights: how often something happened, of how many independent trials.
+struct ProportionSequence {
+  std::string code;
+  std::uint64_t nights = 0;
+  std::uint64_t hits = 0, trials = 0;
+
+  /// Adds a night; starts again where the code has changed.
+  ///
+  /// @param night_hits, night_trials  hits ≤ trials ≥ 1
+  /// @return  whether it started again
+  /// @throws std::invalid_argument outside of these ranges
+  bool add_night(std::string_view code_hash, std::uint64_t night_hits, std::uint64_t night_trials);
+
+  friend bool operator==(const ProportionSequence&, const ProportionSequence&) = default;
+};
+
+/// The claim about a proportion over the nights: `pass` where the interval of all nights lies
+/// within it, `fail` where it is proven broken, else `inconclusive`. Seed and budget of the claim
+/// are not used.
+///
+/// The interval is exact for any number of trials and any time to look: it holds the probabilities
+/// p against which the hits k of n have less evidence than 1/level, B(k + ½, n − k + ½)/B(½, ½) /
+/// (p^k (1 − p)^(n−k)), a martingale under p.
+///
+/// @source Robbins 1970 (Ann. Math. Statist. 41:5), mixtures · Ville 1939 · Krichevsky, Trofimov
+///         1981 (IEEE Trans. Inf. Theory 27:2), the weight of the mixture
+CheckResult judge_sequence(const ProportionSequence& sequence, const ProportionOptions& claim,
+                           const SequenceBudget& budget = {});
+
 /// Evidence against a hypothesis that is tested every night, from its p-values: a density by
 /// chi-square.
 struct TestSequence {
