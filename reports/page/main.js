@@ -17,6 +17,7 @@ function addViews() {
   addCauses();
   addFigures();
   addHistory();
+  addDuets();
   addSearch();
 }
 

@@ -131,7 +131,7 @@ function addOverview() {
     make: () => {
       const missed = data.bars.some((bar) => bar.verdict === 'missed');  // then the bars need eyes too
       const rest = missed ? [barList(), showpieces()] : [showpieces(), barList()];
-      return [verdictPanel(), ...notices(), ...historyNotices(), ...needsEyes(), ...rest.flat(), ...environmentList()];
+      return [verdictPanel(), ...notices(), ...historyNotices(), ...duetNotices(), ...needsEyes(), ...rest.flat(), ...environmentList()];
     },
   });
 }

@@ -3,8 +3,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -160,6 +162,26 @@ Json list_with_exact_seeds(const std::vector<Record>& records) {
   return list;
 }
 
+/// What a page shows of a duet: how many pairs there were, not each of them. A hash of results is
+/// more than JavaScript's numbers hold; whether it differs is what it is for.
+Json duets_to_json(const std::vector<DuetRecord>& duets) {
+  Json list = Json::array();
+  for (DuetRecord duet : duets) {
+    const std::size_t pairs = duet.a_seconds.size();
+    const std::string_view said = verdict(duet);
+    const bool differ = duet.counters_a["result"] != duet.counters_b["result"];
+    for (auto* counters : {&duet.counters_a, &duet.counters_b}) counters->erase("result");
+    duet.a_seconds.clear();
+    duet.b_seconds.clear();
+    Json json = record_to_json(duet);
+    json["pairs"] = std::uint64_t{pairs};
+    json["verdict"] = said;
+    json["results_differ"] = differ;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 /// Significant digits of what is plotted: more than a plot shows, in a third of the space or less.
 constexpr int kDigitsOfNumbers = 5, kDigitsOfBounds = 3;
 
@@ -222,6 +244,7 @@ std::string page_data(const PageInput& input) {
                                   {"causes", list_with_exact_seeds(results.causes)},
                                   {"stability", list_to_json(results.stability)},
                                   {"history", histories_to_json(results.histories)},
+                                  {"duets", duets_to_json(results.duets)},
                                   {"figures", list_to_json(results.figures)},
                                   {"tables", list_to_json(results.tables)}});
   return data.dump();

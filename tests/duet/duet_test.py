@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 import compare_runs
+import count_parts
 import lockstep
 import revisions
 
@@ -163,6 +164,21 @@ class Revisions(unittest.TestCase):
         self.assertEqual({str(p.relative_to(copy)) for p in copy.rglob("*") if p.is_file()}, {"kept", "sub/new"})
         self.assertEqual((copy / "kept").stat().st_mtime, 1)
         self.assertTrue(os.access(copy / "kept", os.X_OK))
+
+
+class CountedParts(unittest.TestCase):
+    def test_every_counter_of_every_part_becomes_a_record_of_the_history(self):
+        with tempfile.TemporaryDirectory() as folder:
+            worker, log = pathlib.Path(folder) / "worker", pathlib.Path(folder) / "new/counters.jsonl"
+            worker.write_text(WORKER.replace("@RAYS@", "7"))
+            worker.chmod(0o755)
+            self.assertEqual(count_parts.main([str(log)], [str(worker)]), 0)
+            records = [json.loads(line) for line in log.read_text().splitlines()]
+            self.assertEqual(records, [{"format": "plumbline.counter/1", "name": f"duet/{part}/rays", "unit": "rays", "value": 7}
+                                       for part in ("twist", "turn")])
+            worker.write_text("#!/bin/sh\nexit 1\n")
+            with self.assertRaises(lockstep.WorkerError):
+                count_parts.main([str(log)], [str(worker)])
 
 
 class RealWorker(unittest.TestCase):

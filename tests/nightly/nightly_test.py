@@ -124,6 +124,32 @@ class Night(unittest.TestCase):
         record = json.loads((self.root / "build/release/results/history.json").read_text())
         self.assertEqual(record["nights"][0]["failed_parts"], 3)
 
+    def test_duets_are_of_the_last_accepted_night(self):
+        """Of five nights: accepted, red, accepted but for its duets, one that ran nothing, and one that looks back."""
+        with tempfile.TemporaryDirectory() as folder, open(os.devnull, "w") as nothing, \
+                unittest.mock.patch("sys.stderr", nothing):
+            root = pathlib.Path(folder)
+            (root / "build/release").mkdir(parents=True)
+            (root / "build/release/plumbline").symlink_to(os.environ["PLUMBLINE"])
+            asked = shell("looks", "echo '{accepted}' >build/asked")
+            asked = Part("looks", "", (Effort("", SECOND, (*asked.efforts[0].command, "{accepted}")),))
+            nights = ((asked, shell("gate", "true")), (shell("gate", "false"),), (shell("gate", "true"), shell("duets", "false")),
+                      (shell("gate", "true", 600),))
+            for made in nights:
+                nightly.main(["--hours", "1", "--history", "h.db"], lambda _: made, root)
+            self.assertFalse((root / "build/asked").exists(), "there was no night before the first")
+            rows = subprocess.run([os.environ["PLUMBLINE"], "history", "export", "--csv", "--table", "parts", "--history", "h.db"],
+                                  cwd=root, capture_output=True, text=True, check=True).stdout
+            self.assertIn("no night was accepted before this one", rows)
+            # All nights are of one build; what is asked for here is which of them.
+            changed = rows.splitlines(keepends=True)
+            with unittest.mock.patch("subprocess.run") as run:
+                run.return_value.stdout = "".join(
+                    [changed[0], *(",".join([c[0], c[1], c[2], f"night {c[0]}", *c[4:]]) for c in (row.split(",") for row in changed[1:]))])
+                self.assertEqual(nightly.accepted_commit("h.db"), "night 3")
+            self.assertEqual(nightly.main(["--hours", "1", "--history", "h.db"], lambda _: (asked,), root), 0)
+            self.assertRegex((root / "build/asked").read_text(), r"^\S+\n$")
+
     def test_a_night_of_which_nothing_fits_is_no_success(self):
         with tempfile.TemporaryDirectory() as folder, open(os.devnull, "w") as nothing, \
                 unittest.mock.patch("sys.stderr", nothing):
@@ -160,6 +186,13 @@ class Plan(unittest.TestCase):
         self.assertEqual(said, [(p.name, [e.minutes for e in p.efforts]) for p in parts.parts("x")])
 
 
+class Level(unittest.TestCase):
+    def test_every_run_of_checks_is_held_to_that_of_the_night(self):
+        nights = {p.name: {e.command[1] for e in p.efforts if e.command[0] == "env"} for p in parts.parts("x")}
+        self.assertEqual({name: words for name, words in nights.items() if words}, {
+            "gate": {"PLUMBLINE_NIGHTLY=gate"}, "suites": {"PLUMBLINE_NIGHTLY=1"}, "calibration": {"PLUMBLINE_NIGHTLY=1"}})
+
+
 class Sources(unittest.TestCase):
     def test_hash_follows_names_and_contents_of_code_alone(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -178,10 +211,3 @@ class Sources(unittest.TestCase):
 
 if __name__ == "__main__":
     unittest.main()
-class Level(unittest.TestCase):
-    def test_every_run_of_checks_is_held_to_that_of_the_night(self):
-        nights = {p.name: {e.command[1] for e in p.efforts if e.command[0] == "env"} for p in parts.parts("x")}
-        self.assertEqual({name: words for name, words in nights.items() if words}, {
-            "gate": {"PLUMBLINE_NIGHTLY=gate"}, "suites": {"PLUMBLINE_NIGHTLY=1"}, "calibration": {"PLUMBLINE_NIGHTLY=1"}})
-
-

@@ -41,7 +41,7 @@ class History(PageTest):
     def test_first_view_leads_to_what_needs_eyes(self):
         self.go("overview")
         notices = self.all("#view-overview .notice")
-        self.assertEqual([n.text for n in notices], ["60 nights: 2 regressions, 1 improvement, 1 check refuted, 1 of 240 fresh seeds with a failure"])
+        self.assertEqual([n.text for n in notices[:1]], ["60 nights: 2 regressions, 1 improvement, 1 check refuted, 1 of 240 fresh seeds with a failure"])
         notices[0].find_element("css selector", "a").click()
         self.wait_until(lambda: self.view() == "history")
 
@@ -184,11 +184,48 @@ class History(PageTest):
         self.assertIn("Detectable size", self.one("[data-part=detection]").text)
 
 
+class Duets(PageTest):
+    def setUp(self):
+        super().setUp()
+        self.go("duets")
+
+    def rows(self):
+        return [row.text for row in self.all("#view-duets tbody tr")]
+
+    def test_what_was_compared_and_what_is_slower_is_said(self):
+        self.assertEqual(self.one("#view-duets .verdict-line").text, "1 part of 4 slower")
+        self.assertIn("From abababab to cdcdcdcd + local changes; intervals hold with 99 % for all parts together", self.one("#view-duets .verdict").text)
+        self.assertEqual([b.text for b in self.all("#view-duets .badge")], ["slower", "no change", "undecided", "not timed"])
+        self.assertIn("1.0310 [1.0270 … 1.0350] 16", self.rows()[0])
+
+    def test_counters_that_differ_are_exact(self):
+        self.assertIn("rays 1,000 → 1,010 (+1.0 %); results differ", self.rows()[3])
+        self.assertTrue(all("the same" in row for row in self.rows()[:3]))
+
+    def test_intervals_are_drawn_on_one_axis(self):
+        box = "return [...document.querySelectorAll('#view-duets .duet')].map((svg) => svg.querySelector(arguments[0]).getBBox()).map((b) => [b.x, b.width])"
+        (x, slower), (_, quiet), (_, wide) = self.run_script(box, ".interval")
+        self.assertGreater(wide, 10 * slower)
+        self.assertLess(quiet, slower)
+        margin, width = self.run_script(box, ".margin")[0]
+        self.assertGreater(x, margin + width, "slower lies beyond what says nothing")
+        self.assertAlmostEqual(margin + width / 2, 50, delta=0.01)
+        self.assertEqual(self.one("#view-duets .duet").get_attribute("aria-label"), "1.0310 [1.0270 … 1.0350]")
+
+    def test_first_view_leads_to_them(self):
+        self.go("overview")
+        notice = self.all("#view-overview .notice")[-1]
+        self.assertEqual(notice.text, "1 part slower than before: bsdf-sample/ggx_conductor")
+        notice.find_element("css selector", "a").click()
+        self.wait_until(lambda: self.view() == "duets")
+
+
 class NoHistory(PageTest):
     NIGHTS = False
 
     def test_only_the_address_says_how_a_history_comes_to_be(self):
         self.assertNotIn("history", self.views())
+        self.assertNotIn("duets", self.views())
         self.go("history")
         self.assertIn("./run nightly --history FILE", self.one("#view-history").text)
         self.assertEqual(self.all("#view-history .verdict"), [])

@@ -152,6 +152,20 @@ def other_machine():
             "numbers": [], "sequences": [], "failing_gate_runs": []}
 
 
+def duet(part, ratio, half, pairs=16, a=(1000, 5), b=(1000, 5), **more):
+    """Counters: rays and the hash of the result."""
+    return {"format": "plumbline.duet/1", "part": part, "revision_a": "ab" * 20, "revision_b": "cd" * 20 + "+", "identical_code": False,
+            "confidence": 0.9975, "ratio": ratio, "low": ratio - half, "high": ratio + half, "a_seconds": pairs * [0.001],
+            "b_seconds": pairs * [0.001 * ratio], "counters_a": {"rays": a[0], "result": a[1]},
+            "counters_b": {"rays": b[0], "result": b[1]}} | more
+
+
+def duets():
+    """A part that became slower, one that did not, one that is not known, and one of which rays and results alone differ."""
+    return [duet("bsdf-sample/ggx_conductor", 1.031, 0.004), duet("render/mis", 1.001, 0.003), duet("verify/mean", 0.99, 0.08),
+            duet("shadow-rays", 1, 0, pairs=0, b=(1010, 2**64 - 1))]
+
+
 def render(command, directory, scene, name):
     for strategy in ("bsdf", "mis"):
         stem = directory / f"{name}.{strategy}"
@@ -165,7 +179,7 @@ def make_page(directory, nights=True):
     results = pathlib.Path(directory) / "results"
     results.mkdir()
     with open(results / "all.jsonl", "w", encoding="utf-8") as lines:
-        for record in (*checks(), *measurements(), *([history(), other_machine()] if nights else [])):
+        for record in (*checks(), *measurements(), *([history(), other_machine(), *duets()] if nights else [])):
             lines.write(json.dumps(record) + "\n")
     scenes = pathlib.Path(__file__).parents[2] / "bench" / "scenes"
     render(command, results, str(scenes / "veach.xml"), "veach")

@@ -5,7 +5,9 @@
 """
 
 import argparse
+import csv
 import dataclasses
+import io
 import os
 import pathlib
 import shutil
@@ -104,10 +106,10 @@ def limit(effort, left):
     return most if left is None else min(most, left)
 
 
-def run_all(chosen, seconds, seed, work=WORK):
+def run_all(chosen, seconds, seed, accepted, work=WORK):
     """The outcomes of all parts, in their order. An interrupt ends the night, not what it has done."""
     began, outcomes = time.monotonic(), []
-    words = {"seed": str(seed), "cores": str(os.cpu_count()), "here": os.getcwd()}
+    words = {"seed": str(seed), "cores": str(os.cpu_count()), "here": os.getcwd(), "accepted": accepted or ""}
     # Each part says itself which seed it has and where its results go: what one sets would mislead another.
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PLUMBLINE_")}
     interrupted = False
@@ -120,6 +122,8 @@ def run_all(chosen, seconds, seed, work=WORK):
             outcome = Outcome(name, "skipped", 0, plan.why_skipped(planned.part.efforts[0], planned.left))
         elif left is not None and left < 60 * ENOUGH * effort.minutes:
             outcome = Outcome(name, "skipped", 0, plan.why_skipped(effort, left / 60))
+        elif accepted is None and "{accepted}" in effort.command:
+            outcome = Outcome(name, "skipped", 0, "no night was accepted before this one")
         else:
             say(f"== {number} of {len(chosen)}: {name}, {effort.what}, about {plan.duration(effort.minutes)}, from "
                 f"{time.strftime('%H:%M')} on")
@@ -133,6 +137,20 @@ def run_all(chosen, seconds, seed, work=WORK):
         if not outcome.good():
             show_end_of(work / f"{name}.log")
     return outcomes
+
+
+def accepted_commit(history):
+    """That of the latest night of which no part has failed; None where there is none.
+
+    What its duets found does not count: what is slower is said in one night, and what comes after it is compared with it."""
+    export = subprocess.run(["build/release/plumbline", "history", "export", "--csv", "--table", "parts", "--history", history],
+                            capture_output=True, text=True)
+    nights = {}
+    for row in csv.DictReader(io.StringIO(export.stdout)):
+        if row["kind"] == "nightly" and row["part"] != "duets":
+            nights.setdefault((int(row["run"]), row["commit"]), set()).add(row["status"])
+    good = [night for night, found in nights.items() if "passed" in found and found <= {"passed", "skipped"}]
+    return max(good)[1] if good else None
 
 
 def show_end_of(log):
@@ -224,7 +242,7 @@ def main(words, make_parts=parts.parts, root=ROOT):
     since = SEEDS.stat().st_size if SEEDS.exists() else 0
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     seconds = None if arguments.hours is None else 60 * (60 * arguments.hours - plan.KEPT)
-    outcomes = run_all(chosen, seconds, seed)
+    outcomes = run_all(chosen, seconds, seed, accepted_commit(arguments.history))
     take_seed_runs(since)
     write_junit(outcomes, WORK / "junit/parts.xml")
     published = publish(arguments.history, outcomes, seed)

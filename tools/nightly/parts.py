@@ -34,11 +34,20 @@ def parts(directory):
               "-j", "{cores}", "--output-junit", f"{directory}/junit/suites.xml")
     bench = (f"{build}/bench/plumbline_bench", "--results", f"{build}/results/bench")
     calibrate = ("env", "PLUMBLINE_NIGHTLY=1", f"{build}/plumbline", "calibrate", "--seed", "{seed}", "--results", f"{build}/results/calibration")
+    count = ("bench/duet/count_parts.py", f"{build}/results/duet/counters.jsonl")
+
+    def duets(*more):
+        return ("./run", "compare-runs", "{accepted}", ".", "--json", f"{build}/results/duet/duets.jsonl", *more)
+
+    short = "bsdf-sample,render/mis,shadow-rays,verify"
     return (
         Part("gate", "the gate with seeds that nobody chose", tuple(gate(n) for n in (1, 2, 4, 8))),
         Part("suites", "full grids and tighter tolerances, with one fresh seed", (Effort("all", 35, suites),)),
+        Part("counters", "rays, samples, bytes, heap and instructions of the parts of a duet", (Effort("all", 2, count),)),
         Part("benchmarks", "times, repeated; rays", (
             Effort("the one-minute set", 3, bench), Effort("full", 30, (*bench, "--full")))),
+        Part("duets", "times and counters beside the last accepted night", (
+            Effort("a short set", 15, duets("--only", short, "--seconds", "30")), Effort("all parts", 70, duets()))),
         Part("calibration", "levels, power and coverage of the checks", (
             Effort("as in the gate", 2, calibrate), Effort("full", 60, (*calibrate, "--full")))),
         Part("mutants", "known bugs, each of which the gate must see", (
