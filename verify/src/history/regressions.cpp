@@ -27,7 +27,7 @@ constexpr std::size_t kShortestDrift = 5;
 constexpr double kDriftIsBetter = 6;
 // How many times its level a year of looks may give a false alarm: measured, with a margin
 // (docs/statistics.md, "Over nights").
-constexpr double kLooks = 1000;
+constexpr double kLooks = 2000;
 
 double inflation(const HistoryOptions& options) {
   return (1 + options.night_correlation) / (1 - options.night_correlation);
