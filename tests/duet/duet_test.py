@@ -176,6 +176,8 @@ class CountedParts(unittest.TestCase):
             records = [json.loads(line) for line in log.read_text().splitlines()]
             self.assertEqual(records, [{"format": "plumbline.counter/1", "name": f"duet/{part}/rays", "unit": "rays", "value": 7}
                                        for part in ("twist", "turn")])
+            worker.write_text("#!/bin/sh\necho heap_bytes 5; echo heap_blocks 2\n")
+            self.assertEqual([r["name"] for r in count_parts.records([str(worker)], ["image-file"])], ["duet/image-file/heap_blocks"])
             worker.write_text("#!/bin/sh\nexit 1\n")
             with self.assertRaises(lockstep.WorkerError):
                 count_parts.main([str(log)], [str(worker)])
