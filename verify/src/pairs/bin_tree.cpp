@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <vector>
 
 namespace plumbline::verify {
 
@@ -50,6 +52,25 @@ void BinTree::build(std::vector<Point2>& points, std::size_t first, std::size_t 
   low.high[d] = high.low[d] = split;
   build(points, first, middle, 2 * node, level + 1, low);
   build(points, middle, last, 2 * node + 1, level + 1, high);
+}
+
+void BinTree::locate(std::span<const Point2> points, std::span<std::size_t> bins) const {
+  // Level by level, without a branch: which half a point lies in is a coin that no predictor knows,
+  // and the points of one group do not wait for each other's splits.
+  constexpr std::size_t kTogether = 16;
+  std::array<std::size_t, kTogether> nodes{};
+  for (std::size_t first = 0; first < points.size(); first += kTogether) {
+    const std::size_t count = std::min(kTogether, points.size() - first);
+    nodes.fill(1);
+    for (int level = 0; level < depth_; ++level) {
+      const std::size_t d = cut_dimension(level);
+      for (std::size_t i = 0; i < count; ++i) {
+        const bool low = points[first + i][d] < splits_[nodes[i]];
+        nodes[i] = 2 * nodes[i] + 1 - static_cast<std::size_t>(low);
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) bins[first + i] = nodes[i] - this->bins();
+  }
 }
 
 std::vector<Cell> BinTree::cells(const std::array<std::vector<double>, 2>& breaks) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "pairs/mass_integral.h"
@@ -28,6 +29,9 @@ class BinTree {
     }
     return node - bins();
   }
+
+  /// Finest bins of many points.
+  void locate(std::span<const Point2> points, std::span<std::size_t> bins) const;
 
   const Box& box(std::size_t bin) const { return boxes_[bin]; }
 

@@ -92,7 +92,9 @@ MassIntegral integrate_over(const BinTree& tree, const SamplingPair& pair,
   question.integrand = per_square(chart, function ? function : pair.pdf);
   if (function) question.density = per_square(chart, pair.pdf);
   question.draw_own = [&](std::size_t count) { return draw_own(pair, count, random); };
-  question.bin_at = [&](const Point2& p) { return tree.locate(p); };
+  question.bins_at = [&](std::span<const Point2> p, std::span<std::size_t> bins) {
+    tree.locate(p, bins);
+  };
   question.bins = tree.bins();
   question.dimension = pair.domain.dimension();
   question.target = error;
@@ -243,21 +245,22 @@ void BinnedPair::draw(std::uint64_t count_of_samples) {
 }
 
 void BinnedPair::count(std::span<const Record> samples) {
-  std::vector<Vec3> points;
+  points_.clear();
   for (const Record& sample : samples) {
     if (!sample) {
       ++counts_.rejected;
     } else if (sample->mass > 0) {
       count_atom(*sample);
     } else if (is_finite(sample->x)) {
-      points.push_back(sample->x);
+      points_.push_back(sample->x);
     } else {
       ++counts_.not_finite;
       counts_.not_finite_at = sample->x;
     }
   }
-  const std::vector<double> densities = ask(pair_.pdf, points);
-  count_points(points, densities);
+  densities_.resize(points_.size());
+  ask(pair_.pdf, std::span<const Vec3>(points_), std::span<double>(densities_));
+  count_points(points_, densities_);
 }
 
 void BinnedPair::count_atom(const SampleRecord& sample) {
@@ -305,6 +308,7 @@ void BinnedPair::count_points(const std::vector<Vec3>& points,
     if (counts_.strays.size() < kStraysKept) counts_.strays.push_back(x);
   };
   std::vector<Vec3> doubtful;
+  inside_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3& x = points[i];
     if (!(densities[i] >= 0) || std::isinf(densities[i])) {
@@ -316,9 +320,10 @@ void BinnedPair::count_points(const std::vector<Vec3>& points,
       see_stray(x);
       continue;
     }
-    ++counts_.bins[locate(x)];
+    inside_.push_back(x);
     if (densities[i] == 0) doubtful.push_back(x);
   }
+  count_in_bins(inside_);
   const std::vector<bool> rounded =
       tree_ ? positive_near(pair_, doubtful) : std::vector<bool>(doubtful.size());
   for (std::size_t i = 0; i < doubtful.size(); ++i) {
@@ -326,8 +331,17 @@ void BinnedPair::count_points(const std::vector<Vec3>& points,
   }
 }
 
-std::size_t BinnedPair::locate(const Vec3& x) const {
-  return tree_ ? tree_->locate(pair_.domain.chart().to_square(x)) : static_cast<std::size_t>(x[0]);
+void BinnedPair::count_in_bins(const std::vector<Vec3>& points) {
+  if (!tree_) {
+    for (const Vec3& x : points) ++counts_.bins[static_cast<std::size_t>(x[0])];
+    return;
+  }
+  squares_.resize(points.size());
+  bins_.resize(points.size());
+  const Chart& chart = pair_.domain.chart();
+  for (std::size_t i = 0; i < points.size(); ++i) squares_[i] = chart.to_square(points[i]);
+  tree_->locate(squares_, bins_);
+  for (const std::size_t bin : bins_) ++counts_.bins[bin];
 }
 
 std::vector<std::vector<BinnedPair::Node>> BinnedPair::nodes() const {

@@ -102,7 +102,7 @@ class BinnedPair {
   void count(std::span<const std::optional<SampleRecord>> samples);
   bool inside(const Vec3& x) const;
   void count_points(const std::vector<Vec3>& points, const std::vector<double>& densities);
-  std::size_t locate(const Vec3& x) const;
+  void count_in_bins(const std::vector<Vec3>& points);
 
   const SamplingPair& pair_;
   Random random_;
@@ -112,6 +112,11 @@ class BinnedPair {
   MassIntegral expected_;
   std::vector<double> lattice_;  // variance per finest bin
   BinCounts counts_;
+  // Of the batch that is counted; kept, so that not every batch makes them anew.
+  std::vector<Vec3> points_, inside_;
+  std::vector<double> densities_;
+  std::vector<Point2> squares_;
+  std::vector<std::size_t> bins_;
 };
 
 }  // namespace plumbline::verify

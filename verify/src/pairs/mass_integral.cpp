@@ -44,8 +44,7 @@ class Integrator {
         random_(random_for(question.seed, Stream::nodes)),
         roots_of_bin_(question.bins),
         ahead_(question.integrand, question.dimension) {
-    std::vector<std::vector<PilotPoint>> of_bin(q_.bins);
-    for (const PilotPoint& s : draw_pilot()) of_bin[bin_at(s.p)].push_back(s);
+    const PilotsOfBins pilot = draw_pilot();
     std::vector<std::vector<Box>> boxes_of_bin(q_.bins);
     for (const Cell& cell : cells) {
       if (cell.box.area() > 0) boxes_of_bin[cell.bin].push_back(cell.box);
@@ -54,7 +53,7 @@ class Integrator {
     for (std::size_t bin = 0; bin < q_.bins; ++bin) {
       for (const Box& box : boxes_of_bin[bin]) {
         const std::size_t first = pilot_.size();
-        for (const PilotPoint& s : of_bin[bin]) {
+        for (const PilotPoint& s : pilot.of(bin)) {
           if (contains(box, s.p)) pilot_.push_back(s);
         }
         roots_of_bin_[bin].push_back(plans.size());
@@ -108,7 +107,11 @@ class Integrator {
     return within(0) && within(1);
   }
 
-  std::size_t bin_at(const Point2& p) const { return q_.bin_at ? q_.bin_at(p) : 0; }
+  std::vector<std::size_t> bins_of(std::span<const Point2> points) const {
+    std::vector<std::size_t> bins(points.size());
+    if (q_.bins_at) q_.bins_at(points, bins);
+    return bins;
+  }
 
   std::vector<double> values_at(const std::vector<Point2>& points) {
     evaluations_ += points.size();
@@ -132,15 +135,14 @@ class Integrator {
     return densities;
   }
 
-  std::vector<PilotPoint> draw_pilot() {
+  PilotsOfBins draw_pilot() {
     std::vector<PilotPoint> pilot;
-    if (!q_.draw_own) return pilot;
-    const OwnSamples points = q_.draw_own(q_.own);
+    const OwnSamples points = q_.draw_own ? q_.draw_own(q_.own) : OwnSamples();
     const std::vector<double> values = values_at(points), densities = densities_at(points, values);
     for (std::size_t i = 0; i < points.size(); ++i) {
       pilot.push_back({points[i], densities[i], values[i]});
     }
-    return pilot;
+    return {pilot, bins_of(points), q_.bins};
   }
 
   /// @param values  at the points of their fits
@@ -207,9 +209,9 @@ class Integrator {
         values);
   }
 
-  /// The leaf that holds a point; none where rounding put it beside all.
-  const TreeCell* leaf_at(const Point2& p) const {
-    for (const std::size_t root : roots_of_bin_[bin_at(p)]) {
+  /// The leaf that holds a point of a bin; none where rounding put it beside all.
+  const TreeCell* leaf_at(const Point2& p, std::size_t bin) const {
+    for (const std::size_t root : roots_of_bin_[bin]) {
       if (!contains(cells_[root].box, p)) continue;
       const TreeCell* cell = &cells_[root];
       while (cell->halves != 0) cell = &cells_[cell->halves + (p[cell->cut] < cell->at ? 0 : 1)];
@@ -240,7 +242,7 @@ class Integrator {
       if (cells_[i].halves == 0) add_fit_and_nodes(i);
     }
     add_spread_nodes();
-    add_own_nodes();
+    if (q_.draw_own) add_nodes(q_.draw_own(own_));
     add_terms();
     for (std::size_t b = 0; b < q_.bins; ++b) {
       result_.total += result_.value[b];
@@ -307,9 +309,11 @@ class Integrator {
     nodes_to_ask_.clear();
   }
 
-  void add_node_of_leaf(const Point2& p) {
-    if (const TreeCell* cell = leaf_at(p)) {
-      add_node(static_cast<std::size_t>(cell - cells_.data()), p);
+  void add_nodes(const std::vector<Point2>& points) {
+    const std::vector<std::size_t> bins = bins_of(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const TreeCell* cell = leaf_at(points[i], bins[i]);
+      if (cell) add_node(static_cast<std::size_t>(cell - cells_.data()), points[i]);
     }
   }
 
@@ -319,18 +323,14 @@ class Integrator {
                           ? std::size_t{1}
                           : static_cast<std::size_t>(std::sqrt(static_cast<double>(q_.spread)));
     const std::size_t columns = q_.spread / rows;
+    std::vector<Point2> points;
     for (std::size_t i = 0; i < columns * rows; ++i) {
       const std::size_t column = i % columns, row = i / columns;
-      const Point2 p{
-          (static_cast<double>(column) + random_.uniform()) / static_cast<double>(columns),
-          (static_cast<double>(row) + random_.uniform()) / static_cast<double>(rows)};
-      add_node_of_leaf(p);
+      points.push_back(
+          {(static_cast<double>(column) + random_.uniform()) / static_cast<double>(columns),
+           (static_cast<double>(row) + random_.uniform()) / static_cast<double>(rows)});
     }
-  }
-
-  void add_own_nodes() {
-    if (!q_.draw_own) return;
-    for (const Point2& p : q_.draw_own(own_)) add_node_of_leaf(p);
+    add_nodes(points);
   }
 
   /// What the nodes have shown of a cell replaces what was expected of it. Few nodes may show less

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <plumbline/verify/detail/many.h>
@@ -32,8 +33,8 @@ struct MassQuestion {
   /// Draws that many samples more. Empty: there are none, only uniform nodes.
   std::function<OwnSamples(std::size_t count)> draw_own;
 
-  /// Which bin a point of the square lies in; empty: there is one bin.
-  std::function<std::size_t(const Point2&)> bin_at;
+  /// Which bins points of the square lie in; empty: there is one bin.
+  std::function<void(std::span<const Point2>, std::span<std::size_t>)> bins_at;
   std::size_t bins = 1;
 
   int dimension = 2;       ///< 1: the integrand depends on the first coordinate alone

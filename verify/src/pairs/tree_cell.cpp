@@ -2,8 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace plumbline::verify {
+
+PilotsOfBins::PilotsOfBins(const std::vector<PilotPoint>& points,
+                           const std::vector<std::size_t>& bins, std::size_t count_of_bins)
+    : points_(points.size()), first_(count_of_bins + 1) {
+  for (const std::size_t bin : bins) ++first_[bin + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t i = 0; i < points.size(); ++i) points_[next[bins[i]]++] = points[i];
+}
 
 void TreeCell::choose_cut(std::span<const PilotPoint> inside, int dimension,
                           const NodesInRound& nodes) {

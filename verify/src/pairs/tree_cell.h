@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "pairs/cell_fit.h"
 
@@ -16,6 +17,22 @@ struct PilotPoint {
 
 // What a cell's uniform nodes are at least, and as if while cells are made.
 inline constexpr double kNodesPerCell = 1;
+
+/// Pilot points, those of a bin next to each other and in their order.
+class PilotsOfBins {
+ public:
+  /// @param bins  that the points lie in
+  PilotsOfBins(const std::vector<PilotPoint>& points, const std::vector<std::size_t>& bins,
+               std::size_t count_of_bins);
+
+  std::span<const PilotPoint> of(std::size_t bin) const {
+    return std::span(points_).subspan(first_[bin], first_[bin + 1] - first_[bin]);
+  }
+
+ private:
+  std::vector<PilotPoint> points_;
+  std::vector<std::size_t> first_;  // of each bin, and the end
+};
 
 /// Random nodes over the square in one round: evenly, and of the pair's own.
 struct NodesInRound {

@@ -73,25 +73,29 @@ Vec3 point_of_record(const R& r) {
 }
 
 template <class P>
-SampleRecord read_plain(const P& point) {
+void read_plain(const P& point, SampleRecord& out) {
   if constexpr (PlainRecord<P>) {
-    SampleRecord out{point_of_record(point), record_weight(point), record_pdf(point)};
+    out.x = point_of_record(point);
+    add_weight(point, out.weight);
+    out.pdf = record_pdf(point);
     take_mass(point, out);
-    return out;
   } else {
-    return SampleRecord{to_point(point)};
+    out.x = to_point(point);
   }
 }
 
 template <class P>
 std::optional<SampleRecord> record_of_plain(const P& point) {
-  return read_plain(point);
+  std::optional<SampleRecord> out;
+  read_plain(point, out.emplace());
+  return out;
 }
 
 template <class P>
 std::optional<SampleRecord> record_of_plain(const std::optional<P>& point) {
-  if (!point) return std::nullopt;
-  return read_plain(*point);
+  std::optional<SampleRecord> out;
+  if (point) read_plain(*point, out.emplace());
+  return out;
 }
 
 }  // namespace plumbline::verify::detail

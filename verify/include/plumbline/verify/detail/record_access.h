@@ -11,10 +11,12 @@
 /// Reading what samplers of other projects return, by the names that they use.
 namespace plumbline::verify {
 
-/// A colour or spectrum: a number, r g b, x y z, or anything with size() and [].
+namespace detail {
+
+/// Adds the channels of a colour to none. What is read is written where it stays: a record is
+/// large, and a copy of one that was just written in pieces waits for each of them.
 template <class C>
-Channels to_channels(const C& c) {
-  Channels out;
+void add_channels(const C& c, Channels& out) {
   const auto put = [&out](auto v) { out.value[out.count++] = static_cast<double>(v); };
   if constexpr (std::is_arithmetic_v<C>) {
     put(c);
@@ -31,6 +33,15 @@ Channels to_channels(const C& c) {
   } else {
     put(c[0]), put(c[1]), put(c[2]);
   }
+}
+
+}  // namespace detail
+
+/// A colour or spectrum: a number, r g b, x y z, or anything with size() and [].
+template <class C>
+Channels to_channels(const C& c) {
+  Channels out;
+  detail::add_channels(c, out);
   return out;
 }
 
@@ -52,18 +63,17 @@ Vec3 record_direction(const R& r) {
   }
 }
 
+/// Empty where it states none.
 template <class R>
-Channels record_weight(const R& r) {
+void add_weight(const R& r, Channels& out) {
   if constexpr (requires { r.weight; }) {
-    return to_channels(r.weight);
+    add_channels(r.weight, out);
   } else if constexpr (requires { r.throughput; }) {
-    return to_channels(r.throughput);
+    add_channels(r.throughput, out);
   } else if constexpr (requires { r.value; }) {
-    return to_channels(r.value);
+    add_channels(r.value, out);
   } else if constexpr (requires { r.f; }) {
-    return to_channels(r.f);
-  } else {
-    return {};
+    add_channels(r.f, out);
   }
 }
 
@@ -101,11 +111,13 @@ void take_mass(const R& r, SampleRecord& out) {
   }
 }
 
+/// @param out  as it is made
 template <class R>
-SampleRecord read_plain_record(const R& r) {
-  SampleRecord out{record_direction(r), record_weight(r), record_pdf(r)};
+void read_plain_record(const R& r, SampleRecord& out) {
+  out.x = record_direction(r);
+  add_weight(r, out.weight);
+  out.pdf = record_pdf(r);
   take_mass(r, out);
-  return out;
 }
 
 }  // namespace detail
@@ -113,12 +125,13 @@ SampleRecord read_plain_record(const R& r) {
 /// A record, or an optional or pointer to one; empty stands for a failed sample.
 template <class R>
 std::optional<SampleRecord> read_record(const R& r) {
+  std::optional<SampleRecord> out;
   if constexpr (requires { static_cast<bool>(r), *r; }) {
-    if (!static_cast<bool>(r)) return std::nullopt;
-    return detail::read_plain_record(*r);
+    if (static_cast<bool>(r)) detail::read_plain_record(*r, out.emplace());
   } else {
-    return detail::read_plain_record(r);
+    detail::read_plain_record(r, out.emplace());
   }
+  return out;
 }
 
 }  // namespace plumbline::verify
