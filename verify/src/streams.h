@@ -25,6 +25,7 @@ enum class Stream : std::uint64_t {
   probes = 13,        ///< uniform numbers that show whether anything is rejected
   lobe_seeds = 14,    ///< seeds of the lobes' own
   inverse = 15,       ///< numbers and points of the round trip
+  purity = 16,        ///< numbers and directions that code is asked about twice
   energy_pilot = 19,  ///< samples that shape the cells of an albedo
   own_nodes = 20,     ///< samples at which an integral's fit is corrected
   nodes = 21,         ///< random points at which it is

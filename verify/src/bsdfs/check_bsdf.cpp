@@ -1,18 +1,24 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <deque>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <plumbline/verify/bsdf.h>
 
 #include "bsdfs/bsdf_checks.h"
+#include "bsdfs/purity.h"
 #include "diagnosis/diagnosis.h"
 #include "pairs/battery.h"
+#include "progress.h"
 #include "streams.h"
 #include "text.h"
+#include "threads.h"
 
 namespace plumbline::verify {
 
@@ -68,47 +74,134 @@ BsdfOptions for_view(BsdfOptions options, std::size_t view) {
   return options;
 }
 
+/// What is looked at from one direction.
+class Looking {
+ public:
+  /// @param bsdf, progress  kept by the caller
+  Looking(const std::string& name, const ErasedBsdf& bsdf, const View& from,
+          const BsdfOptions& options, Progress& progress)
+      : view_(from),
+        options_(options),
+        bsdf_(bsdf),
+        progress_(progress),
+        pair_(bsdf_pair(name + "/" + from.name, bsdf, from.wo, options)),
+        battery_(pair_, options_.contract, progress) {}
+
+  void judge_points() { battery_.judge_points(); }
+
+  void judge_samples() {
+    battery_.judge_samples();
+    if (options_.conserves_energy || options_.albedo) {
+      add(check_energy(pair_.name, bsdf_, view_.wo, options_));
+      albedo_ = albedo_seen(more_.back(), view_.wo, options_);
+    }
+    if (battery_.has_atoms()) add(check_atoms(pair_.name, bsdf_, view_.wo, options_));
+  }
+
+  /// All results, with the evidence but for its bins. Once.
+  PairOutcome outcome() {
+    PairOutcome outcome = battery_.outcome();
+    outcome.view.wo = view_.wo;
+    outcome.view.bsdf = &bsdf_;
+    outcome.view.eta = options_.eta;
+    for (CheckResult& r : more_) outcome.results.push_back(std::move(r));
+    for (CheckResult& r : outcome.results) {
+      if (!r.as_expected()) r.reason += "; wo = " + place(view_.wo) + ", z the normal";
+    }
+    return outcome;
+  }
+
+  const std::optional<AlbedoAt>& albedo() const { return albedo_; }
+  std::vector<BinSeen> bins_seen() const { return battery_.bins_seen(); }
+
+ private:
+  void add(CheckResult result) {
+    progress_.decided(result);
+    more_.push_back(std::move(result));
+  }
+
+  View view_;
+  BsdfOptions options_;
+  const ErasedBsdf& bsdf_;
+  Progress& progress_;
+  SamplingPair pair_;
+  PairBattery battery_;
+  std::vector<CheckResult> more_;  // of a BSDF: energy, atoms
+  std::optional<AlbedoAt> albedo_;
+};
+
+class BsdfBattery {
+ public:
+  BsdfBattery(const std::string& name, const ErasedBsdf& bsdf, const BsdfOptions& options)
+      : name_(name), bsdf_(bsdf), options_(options), progress_(name, options.contract) {
+    const std::vector<View> views = views_of(options);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      looking_.emplace_back(name, bsdf, views[i], for_view(options, i), progress_);
+    }
+  }
+
+  /// What needs no statistics comes first, from all directions.
+  Report run() {
+    const int threads = options_.contract.threads;
+    if (threads > 1) require_pure(name_, bsdf_, options_.contract.seed);
+    const auto each = [&](auto judge) {
+      on_threads(threads, looking_.size(), [&](std::size_t i) { (looking_[i].*judge)(); });
+    };
+    each(&Looking::judge_points);
+    ReciprocityOutcome reciprocity;
+    if (options_.reciprocal) {
+      reciprocity = judge_reciprocity(name_, bsdf_, options_);
+      progress_.decided(reciprocity.result);
+    }
+    each(&Looking::judge_samples);
+    for (Looking& from : looking_) take(from);
+    if (options_.reciprocal) {
+      evidence_.reciprocity = std::move(reciprocity.pairs);
+      all_.results.push_back(std::move(reciprocity.result));
+    }
+    if (black_) {
+      all_.results.push_back(
+          nothing_sampled(name_, options_.contract, kBlackEverywhere, kWhyBlack));
+      progress_.decided(all_.results.back());
+    }
+    find_cause();
+    return std::move(all_);
+  }
+
+ private:
+  void take(Looking& from) {
+    PairOutcome outcome = from.outcome();
+    black_ = black_ && outcome.nothing;
+    for (CheckResult& r : outcome.results) all_.results.push_back(std::move(r));
+    evidence_.views.push_back(std::move(outcome.view));
+    if (from.albedo()) evidence_.albedos.push_back(*from.albedo());
+  }
+
+  void find_cause() {
+    const bool failed = std::any_of(
+        all_.begin(), all_.end(), [](const CheckResult& r) { return r.verdict == Verdict::fail; });
+    if (!failed) return;
+    progress_.looks_at("the cause");
+    for (std::size_t i = 0; i < looking_.size(); ++i) {
+      evidence_.views[i].bins = looking_[i].bins_seen();
+    }
+    name_cause(diagnose(evidence_), all_);
+  }
+
+  const std::string& name_;
+  const ErasedBsdf& bsdf_;
+  const BsdfOptions& options_;
+  Progress progress_;
+  std::deque<Looking> looking_;  // what the evidence points to
+  ReportEvidence evidence_;
+  Report all_;
+  bool black_ = true;  // which from some directions may be right, from all is most likely not
+};
+
 }  // namespace
 
 Report check_bsdf(const std::string& name, const ErasedBsdf& bsdf, const BsdfOptions& options) {
-  Report all;
-  ReportEvidence evidence;
-  std::deque<SamplingPair> pairs;  // what the evidence points to
-  const std::vector<View> views = views_of(options);
-  bool black = true;  // which from some directions may be right, from all is most likely not
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const View& view = views[i];
-    const BsdfOptions here = for_view(options, i);
-    const std::string subject = name + "/" + view.name;
-    const SamplingPair& pair = pairs.emplace_back(bsdf_pair(subject, bsdf, view.wo, here));
-    PairOutcome outcome = judge_pair(pair, here.contract);
-    black = black && outcome.nothing;
-    outcome.view.wo = view.wo;
-    outcome.view.bsdf = &bsdf;
-    outcome.view.eta = options.eta;
-    evidence.views.push_back(std::move(outcome.view));
-    std::vector<CheckResult>& results = outcome.results;
-    if (options.conserves_energy || options.albedo) {
-      results.push_back(check_energy(subject, bsdf, view.wo, here));
-      evidence.albedos.push_back(albedo_seen(results.back(), view.wo, options));
-    }
-    if (outcome.atoms) results.push_back(check_atoms(subject, bsdf, view.wo, here));
-    for (CheckResult& r : results) {
-      if (!r.as_expected()) r.reason += "; wo = " + place(view.wo) + ", z the normal";
-      all.results.push_back(std::move(r));
-    }
-  }
-  if (options.reciprocal) {
-    ReciprocityOutcome outcome = judge_reciprocity(name, bsdf, options);
-    evidence.reciprocity = std::move(outcome.pairs);
-    all.results.push_back(std::move(outcome.result));
-  }
-  if (black)
-    all.results.push_back(nothing_sampled(name, options.contract, kBlackEverywhere, kWhyBlack));
-  const bool failed = std::any_of(all.begin(), all.end(),
-                                  [](const CheckResult& r) { return r.verdict == Verdict::fail; });
-  if (failed) name_cause(diagnose(evidence), all);
-  return all;
+  return BsdfBattery(name, bsdf, options).run();
 }
 
 }  // namespace plumbline::verify

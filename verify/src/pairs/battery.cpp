@@ -19,7 +19,7 @@ namespace plumbline::verify {
 namespace {
 
 /// The bins at the finest level that still counts about 100 in each.
-std::vector<BinSeen> bins_seen(const BinnedPair& binned) {
+std::vector<BinSeen> bins_of(const BinnedPair& binned) {
   constexpr double kCountsPerBin = 100;
   const double n = static_cast<double>(binned.counts().drawn);
   const int depth = std::clamp(static_cast<int>(std::log2(n / kCountsPerBin)), 0, binned.depth());
@@ -72,45 +72,80 @@ MassSeen mass_seen(const BinnedPair& binned, const RejectedShare& rejected,
 
 }  // namespace
 
-PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options) {
-  std::vector<CheckResult> results;
-  ViewEvidence view;
-  view.pair = &pair;
-  for (PointwiseOutcome& outcome : judge_pointwise(pair, options)) {
-    if (!outcome.ratios.points.empty()) view.ratios.push_back(std::move(outcome.ratios));
-    results.push_back(std::move(outcome.result));
-  }
-  JacobianOutcome jacobian = judge_jacobian(pair, options);
-  const std::size_t jacobian_at = results.size();
-  results.push_back(jacobian.result);
-  if (has_inverse(pair)) results.push_back(judge_inverse(pair, options));
+PairBattery::PairBattery(const SamplingPair& pair, const ContractOptions& options,
+                         Progress& progress)
+    : pair_(pair), options_(options), progress_(progress) {
+  outcome_.view.pair = &pair;
+}
 
-  Stopwatch watch;
-  const double error = mass_error(options);
-  BinnedPair binned(pair, options, error);
-  const RejectedShare rejected = measure_rejected(pair, options, error);
-  const double integration = watch.lap();
-  CheckResult chi_square = run_chi_square(options, binned, rejected);
-  chi_square.seconds = watch.lap();
-  CheckResult integral = judge_integral(options, binned, rejected);
-  integral.seconds = integration + watch.lap();
-  if (jacobian.below_everywhere && integral.verdict == Verdict::pass &&
-      chi_square.verdict == Verdict::pass) {
-    skip_single_branches(results[jacobian_at]);
-    jacobian.ratios.clear();
+void PairBattery::judge_points() {
+  progress_.looks_at(pair_.name + ": points");
+  std::vector<CheckResult>& results = outcome_.results;
+  for (PointwiseOutcome& outcome : judge_pointwise(pair_, options_)) {
+    if (!outcome.ratios.points.empty()) outcome_.view.ratios.push_back(std::move(outcome.ratios));
+    results.push_back(std::move(outcome.result));
+    progress_.decided(results.back());
   }
-  for (RatioSeries& s : jacobian.ratios) view.ratios.push_back(std::move(s));
-  results.push_back(std::move(integral));
-  results.push_back(std::move(chi_square));
-  const BinCounts& counts = binned.counts();
+  progress_.looks_at(pair_.name + ": Jacobian");
+  jacobian_ = judge_jacobian(pair_, options_);
+  jacobian_at_ = results.size();
+  results.push_back(jacobian_.result);
+  if (!jacobian_.below_everywhere) progress_.decided(results.back());
+  if (!has_inverse(pair_)) return;
+  results.push_back(judge_inverse(pair_, options_));
+  progress_.decided(results.back());
+}
+
+void PairBattery::judge_samples() {
+  Stopwatch watch;
+  progress_.looks_at(pair_.name + ": integral");
+  const double error = mass_error(options_);
+  BinnedPair& binned = binned_.emplace(pair_, options_, error);
+  const RejectedShare rejected = measure_rejected(pair_, options_, error);
+  const double integration = watch.lap();
+  progress_.looks_at(pair_.name + ": chi-square");
+  CheckResult chi_square = run_chi_square(options_, binned, rejected);
+  chi_square.seconds = watch.lap();
+  CheckResult integral = judge_integral(options_, binned, rejected);
+  integral.seconds = integration + watch.lap();
+  if (jacobian_.below_everywhere && integral.verdict == Verdict::pass &&
+      chi_square.verdict == Verdict::pass) {
+    skip_single_branches(outcome_.results[jacobian_at_]);
+    jacobian_.ratios.clear();
+  }
+  if (jacobian_.below_everywhere) progress_.decided(outcome_.results[jacobian_at_]);
+  for (CheckResult* r : {&integral, &chi_square}) {
+    progress_.decided(*r);
+    outcome_.results.push_back(std::move(*r));
+  }
+  outcome_.view.mass = mass_seen(binned, rejected, options_);
+}
+
+PairOutcome PairBattery::outcome() {
+  ViewEvidence& view = outcome_.view;
+  for (RatioSeries& s : jacobian_.ratios) view.ratios.push_back(std::move(s));
+  const BinCounts& counts = binned_->counts();
   view.samples = static_cast<double>(counts.drawn);
-  view.bins = bins_seen(binned);
-  view.mass = mass_seen(binned, rejected, options);
   view.strays = counts.strays;
   view.stray_share = static_cast<double>(counts.stray) / std::max(1.0, view.samples);
-  for (const CheckResult& r : results) view.failed = view.failed || r.verdict == Verdict::fail;
-  return {std::move(results), std::move(view), counts.rejected == counts.drawn,
-          !counts.atoms.empty()};
+  for (const CheckResult& r : outcome_.results) {
+    view.failed = view.failed || r.verdict == Verdict::fail;
+  }
+  outcome_.nothing = counts.rejected == counts.drawn;
+  outcome_.atoms = has_atoms();
+  return std::move(outcome_);
+}
+
+std::vector<BinSeen> PairBattery::bins_seen() const { return bins_of(*binned_); }
+
+PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options) {
+  Progress progress(pair.name, options);
+  PairBattery battery(pair, options, progress);
+  battery.judge_points();
+  battery.judge_samples();
+  PairOutcome outcome = battery.outcome();
+  outcome.view.bins = battery.bins_seen();
+  return outcome;
 }
 
 void name_cause(const Cause& cause, Report& report) {
@@ -136,15 +171,24 @@ CheckResult nothing_sampled(const std::string& name, const ContractOptions& opti
 }
 
 Report check_pair(const SamplingPair& pair, const ContractOptions& options) {
-  PairOutcome outcome = judge_pair(pair, options);
+  Progress progress(pair.name, options);
+  PairBattery battery(pair, options, progress);
+  battery.judge_points();
+  battery.judge_samples();
+  PairOutcome outcome = battery.outcome();
   Report report(std::move(outcome.results));
   if (outcome.nothing) {
     report.results.push_back(nothing_sampled(
         pair.name, options, "the sampler rejected every random number, so that nothing was tested",
         "see that it takes them as it is given them, and that what it is asked "
         "about (direction, side, light) is one that it samples"));
+    progress.decided(report.results.back());
   }
-  if (outcome.view.failed) name_cause(diagnose({{std::move(outcome.view)}, {}, {}}), report);
+  if (outcome.view.failed) {
+    progress.looks_at("the cause");
+    outcome.view.bins = battery.bins_seen();
+    name_cause(diagnose({{std::move(outcome.view)}, {}, {}}), report);
+  }
   return report;
 }
 

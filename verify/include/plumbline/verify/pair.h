@@ -175,6 +175,19 @@ struct ContractOptions : CheckSettings {
   /// A pass proves that the relative deviation of the samples' density from the pdf, root mean
   /// square over the 64 bins of the coarsest level, is at most this.
   double deviation = 0.0125;
+
+  // How it is run.
+
+  /// Is given each result of a battery as soon as its verdict is certain, before its cause is
+  /// looked for: what needs no statistics of all directions first. Of several threads, one at a
+  /// time.
+  std::function<void(const CheckResult&)> decided = {};
+
+  /// Directions of a BSDF that are looked at at the same time; the results are the same. More than
+  /// one for code whose functions may be called from several threads: first it is asked the same
+  /// twice, in another order, and one that answers differently is refused
+  /// (std::invalid_argument).
+  int threads = 1;
 };
 
 /// The whole battery on one sampling pair: record and weight pointwise, support, Jacobian, inverse,
