@@ -19,6 +19,7 @@
 #include "shadow_rays.h"
 #include "speed_error.h"
 #include "variance_claims.h"
+#include "verdict_time.h"
 
 namespace {
 
@@ -50,7 +51,8 @@ std::vector<Part> make_parts(const std::filesystem::path& results) {
           {"variance-claims", "variance_claims", measure_variance_claims, true},
           {"sampling-cost", "sampling_cost_table",
            [results](ResultLog& log, bool full) { measure_sampling_cost(log, results, full); }},
-          {"languages", "languages", measure_languages}};
+          {"languages", "languages", measure_languages},
+          {"verdict-time", "verdict_time", measure_verdict_time}};
 }
 
 }  // namespace
