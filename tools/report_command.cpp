@@ -52,10 +52,10 @@ std::vector<reports::PageImage> pictures(reports::Results& results) {
       pixels += images.back().rgb.size() / 3;
       if (pixels > reports::kMaxPagePixels) {
         images.pop_back();
-        throw renderer::BudgetError(
-            fmt::format("left out: with it the page has more than {} pixels in its pictures: render "
-                        "smaller ones, or remove some records",
-                        reports::kMaxPagePixels));
+        throw renderer::BudgetError(fmt::format(
+            "left out: with it the page has more than {} pixels in its pictures: render "
+            "smaller ones, or remove some records",
+            reports::kMaxPagePixels));
       }
     } catch (const std::exception& error) {
       results.warnings.push_back({record.image, 0, error.what()});

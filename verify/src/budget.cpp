@@ -104,8 +104,8 @@ std::uint64_t samples_to_decide(double relative_tolerance, double cv, const Erro
   if (!(relative_tolerance > 0) || !(cv >= 0)) {
     throw std::invalid_argument("samples_to_decide: needs a positive tolerance and cv >= 0");
   }
-  const double reach = normal_quantile(kPassOnLast * budget.pass_level()) +
-                       normal_quantile(budget.fail_level() / 2);
+  const double reach =
+      normal_quantile(kPassOnLast * budget.pass_level()) + normal_quantile(budget.fail_level() / 2);
   const double ratio = cv / relative_tolerance;
   const double samples = std::ceil(std::ceil(reach * reach) * ratio * ratio);
   return static_cast<std::uint64_t>(std::clamp(samples, 1.0, 0x1p62));

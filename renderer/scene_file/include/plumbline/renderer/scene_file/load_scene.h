@@ -24,7 +24,8 @@ SceneDescription load_scene(const std::filesystem::path& file,
 /// Everything for which load_scene would refuse a file, in the order of files and lines: what is
 /// wrong in one element does not hide the next.
 ///
-/// @return  lines "file:line: what and what to do", a thousand at most; none where it takes the file
+/// @return  lines "file:line: what and what to do", a thousand at most; none where it takes the
+/// file
 std::vector<std::string> check_scene(const std::filesystem::path& file,
                                      const std::map<std::string, std::string>& overrides = {});
 
