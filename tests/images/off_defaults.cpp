@@ -159,7 +159,8 @@ OffDefault mesh_under_sky() {
 OffDefault light_by_solid_angle() {
   // From the centre of a cube each of its faces fills a sixth of the sphere.
   return {"light_by_solid_angle",
-          eye() + R"(<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/>
+          eye("0.25 0 0") +
+              R"(<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/>
       <translate z="1"/></transform>)" +
               area_light("1", R"(<string name="sampling" value="solid_angle"/>)") +
               R"(</shape><shape type="rectangle"><transform name="to_world"><translate z="-1"/>

@@ -199,9 +199,14 @@ class OffDefaults : public testing::TestWithParam<OffDefault> {
     std::optional<SceneDescription> description;
     try {
       description = load_off_default(rest.scene);
+      renderer::make_scene(one_pixel(*description));
     } catch (const renderer::InputError& error) {
+      // A light without its transform may lie in the floor, which is refused.
+      const std::string what = error.what();
       const std::string name = parameter.property ? parameter.property->name : parameter.tag;
-      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+      EXPECT_TRUE(what.find(name) != std::string::npos ||
+                  (name == "to_world" && what.find("two surfaces in one place") < what.size()))
+          << what;
       return;
     }
     if (GetParam().measure != Measure::luminance) {
