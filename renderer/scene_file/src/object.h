@@ -29,7 +29,7 @@ inline const Kind<Affine> kTransform{{"transform"}, parse_transform};
 
 inline constexpr const char* kRequired = nullptr;
 /// In place of the default of what is taken only where it changes nothing: it has no value.
-inline constexpr const char* kWithoutEffect = "without effect";
+inline constexpr char kWithoutEffect[] = "without effect";  // an array: it is known by its address
 
 struct PropertyRow {
   std::string name;
