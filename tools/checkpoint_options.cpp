@@ -17,28 +17,11 @@
 namespace plumbline::tools {
 namespace {
 
-/// The state is what the options make of one, whatever the file says.
-bool fits(const renderer::RenderState& state, const renderer::SceneDescription& scene,
-          const renderer::RenderOptions& options) {
-  const std::size_t pixels = state.film.pixels().size();
-  const bool is_sobol = options.sampler == renderer::SamplerType::sobol;
-  const std::size_t iterations = options.allocation ? options.allocation->iterations : 0;
-  return state.film.width() == scene.camera.width && state.film.height() == scene.camera.height &&
-         state.replicates.size() == (is_sobol ? pixels * options.replicates : 0) &&
-         state.bsdf_counts.size() == pixels * iterations;
-}
-
-renderer::RenderState fresh_state(const renderer::SceneDescription& scene,
-                                  const renderer::RenderOptions& options) {
-  renderer::RenderState state;
-  state.film = renderer::Film(scene.camera.width, scene.camera.height);
-  const std::size_t pixels = state.film.pixels().size();
-  state.drawn.resize(pixels);
-  if (options.sampler == renderer::SamplerType::sobol) {
-    state.replicates.resize(pixels * options.replicates);
-  }
-  if (options.allocation) state.bsdf_counts.resize(pixels * options.allocation->iterations);
-  return state;
+/// A state is what the options make of one, whatever the file says.
+bool fits(const renderer::RenderState& state, const renderer::RenderState& fresh) {
+  return state.film.width() == fresh.film.width() && state.film.height() == fresh.film.height() &&
+         state.replicates.size() == fresh.replicates.size() &&
+         state.bsdf_counts.size() == fresh.bsdf_counts.size();
 }
 
 /// Whole pixels are dealt out, in turn: no net of points is ever cut, and no sum is split.
@@ -153,16 +136,16 @@ void Checkpoints::attach(const renderer::SceneDescription& scene,
   if (arguments_.file.empty() && arguments_.resume.empty()) return;
   settings_ = checkpoint_settings(scene, options);
   const Shard shard = parse_shard(arguments_.shard);
-  auto state = std::make_shared<renderer::RenderState>();
+  const auto state = std::make_shared<renderer::RenderState>(
+      fresh_state(scene.camera.width, scene.camera.height, options));
   if (arguments_.resume.empty()) {
-    *state = fresh_state(scene, options);
     for (std::size_t i = 0; i < state->drawn.size(); ++i) {
       if (!shard.has(i)) state->drawn[i] = output::kElsewhere;
     }
   } else {
     output::Checkpoint checkpoint = output::read_checkpoint(arguments_.resume);
     output::require_same(arguments_.resume, checkpoint.settings, settings_);
-    if (!fits(checkpoint.state, scene, options)) {
+    if (!fits(checkpoint.state, *state)) {
       throw renderer::InputError(arguments_.resume + ": does not hold what it says");
     }
     if (!is_of(checkpoint.state, shard)) {

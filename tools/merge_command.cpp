@@ -28,40 +28,39 @@ struct MergeArguments {
 
 constexpr const char* kSeed = "seed";
 
-/// One checkpoint of those that are put together.
+/// Of one checkpoint of those that are put together: which samples it holds.
 struct Part {
   std::string file;
   std::string seed;
-  renderer::RenderState state;
+  std::vector<std::uint32_t> drawn;
 };
 
 /// What has been put together so far.
 class Sum {
  public:
-  explicit Sum(output::CheckpointSettings settings) : settings_(std::move(settings)) {
-    settings_.erase(kSeed);
-  }
-
   /// In the order of the calls: other orders round otherwise where pixels have samples of several.
   void add(const std::string& file) {
     output::Checkpoint checkpoint = output::read_checkpoint(file);
     const std::string seed = checkpoint.settings[kSeed];
     checkpoint.settings.erase(kSeed);
-    output::require_same(file, checkpoint.settings, settings_);
-    require_other_samples(file, seed, checkpoint.state);
+    renderer::RenderState& state = checkpoint.state;
     if (parts_.empty()) {
-      film_ = renderer::Film(checkpoint.state.film.width(), checkpoint.state.film.height());
+      settings_ = std::move(checkpoint.settings);
+      film_ = renderer::Film(state.film.width(), state.film.height());
       samples_.resize(film_.pixels().size());
+    } else {
+      output::require_same(file, checkpoint.settings, settings_);
     }
-    const std::vector<renderer::PixelMoments> pixels = pixels_of(checkpoint);
-    if (pixels.size() != film_.pixels().size()) {
+    require_other_samples(file, seed, state.drawn);
+    if (state.drawn.size() != samples_.size()) {
       throw renderer::InputError(file + ": does not hold what it says");
     }
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      film_.pixels()[i].merge(pixels[i]);
-      if (output::is_here(checkpoint.state.drawn[i])) samples_[i] += checkpoint.state.drawn[i];
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if (!state.replicates.empty()) state.sum_replicates(i);
+      film_.pixels()[i].merge(state.film.pixels()[i]);
+      if (output::is_here(state.drawn[i])) samples_[i] += state.drawn[i];
     }
-    parts_.push_back({file, seed, std::move(checkpoint.state)});
+    parts_.push_back({file, seed, std::move(state.drawn)});
   }
 
   /// @throws renderer::InputError for pixels that no part has
@@ -80,29 +79,15 @@ class Sum {
  private:
   /// The same seed gives the same samples: those of one pixel count once.
   void require_other_samples(const std::string& file, const std::string& seed,
-                             const renderer::RenderState& state) const {
+                             const std::vector<std::uint32_t>& drawn) const {
     for (const Part& part : parts_) {
       if (part.seed != seed) continue;
-      for (std::size_t i = 0; i < std::min(state.drawn.size(), part.state.drawn.size()); ++i) {
-        if (!output::is_here(state.drawn[i]) || !output::is_here(part.state.drawn[i])) continue;
+      for (std::size_t i = 0; i < std::min(drawn.size(), part.drawn.size()); ++i) {
+        if (!output::is_here(drawn[i]) || !output::is_here(part.drawn[i])) continue;
         throw renderer::InputError(fmt::format("{}: holds samples of the seed {} that {} holds too",
                                                file, seed, part.file));
       }
     }
-  }
-
-  static std::vector<renderer::PixelMoments> pixels_of(const output::Checkpoint& checkpoint) {
-    const renderer::RenderState& state = checkpoint.state;
-    if (state.replicates.empty()) return state.film.pixels();
-    std::vector<renderer::PixelMoments> pixels(state.film.pixels().size());
-    const std::size_t replicates =
-        state.replicates.size() / std::max<std::size_t>(pixels.size(), 1);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      for (std::size_t k = 0; k < replicates; ++k) {
-        pixels[i].add_replicate(state.replicates[i * replicates + k]);
-      }
-    }
-    return pixels;
   }
 
   std::map<std::string, std::string> metadata() const {
@@ -131,7 +116,7 @@ int run_merge(const MergeArguments& arguments) {
   output::Files files;
   for (const std::string& file : arguments.checkpoints) files.reads(file);
   output::OutputFile& output = files.writes("--output", arguments.output);
-  Sum sum(output::read_checkpoint(arguments.checkpoints.front()).settings);
+  Sum sum;
   for (const std::string& file : arguments.checkpoints) sum.add(file);
   const renderer::Image image = sum.image();
   output.fill([&](const auto& path) { write_exr(path, image); });

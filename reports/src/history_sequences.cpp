@@ -9,7 +9,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,7 +22,6 @@ namespace over_nights = verify::history;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t kFewestBatches = 64;         // of a first night, where it has the samples
-constexpr double kBatchShareLimit = 0.25;            // as check_variance_ratio has it
 constexpr std::uint64_t kSamplesOfABatch = 1 << 10;  // at most: skewness has mostly gone by then
 
 /// A sequence as it goes on over the runs.
@@ -64,13 +62,6 @@ void take_verdict(Followed& followed, const verify::CheckResult& judged, std::ui
   followed.record.nights = nights;
 }
 
-std::optional<double> own_figure(const verify::CheckResult& check, std::string_view name) {
-  for (const verify::FigureValue& figure : check.figures) {
-    if (figure.name() == name) return figure.value;
-  }
-  return std::nullopt;
-}
-
 /// Adds a night to the sequence of a mean with a reference and a tolerance.
 ///
 /// @param scale  what the rounding allowance is relative to
@@ -108,7 +99,7 @@ void add_mean(Followed& followed, const HistoryRun& run, const verify::CheckResu
 void add_agreement(Followed& followed, const HistoryRun& run, const verify::CheckResult& check,
                    std::size_t night) {
   // The worst of several differences is a choice by their noise.
-  if (!is_mean(check) || own_figure(check, "quantities").value_or(1) > 1) return;
+  if (!is_mean(check) || check.figure(verify::Figure::quantities).value_or(1) > 1) return;
   const auto a = check.figure(verify::Figure::mean_of_a);
   const auto b = check.figure(verify::Figure::mean_of_b);
   if (!a || !b) return;
@@ -134,15 +125,15 @@ void take_interval(Followed& followed, const verify::Interval& interval, double 
 void add_ratio(Followed& followed, const HistoryRun& run, const verify::CheckResult& check,
                std::size_t night) {
   using verify::Figure;
-  const auto error = own_figure(check, "error of the logarithm");
-  const auto batches = own_figure(check, "batches");
+  const auto error = check.figure(Figure::error_of_logarithm);
+  const auto batches = check.figure(Figure::batches);
   if (!check.estimate || !(*check.estimate > 0) || !error || !std::isfinite(*error) || !batches) {
     return;
   }
   // As a night by itself: one batch that carries a variance decides nothing.
   const double share = std::max(check.figure(Figure::largest_batch_of_a).value_or(0),
                                 check.figure(Figure::largest_batch_of_b).value_or(0));
-  if (!(share <= kBatchShareLimit)) return;
+  if (!(share <= verify::kBatchShareLimit)) return;
   over_nights::RatioSequenceOptions options;
   options.claim.subject = check.subject;
   options.claim.at_least = check.figure(Figure::at_least);

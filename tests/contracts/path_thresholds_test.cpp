@@ -8,9 +8,9 @@
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/core/light/light.h>
 #include <plumbline/renderer/core/render/film.h>
-#include <plumbline/renderer/core/render/render_loop.h>
 #include <plumbline/renderer/core/render/vertex.h>
 #include <plumbline/renderer/core/scene/geometry.h>
+#include <plumbline/renderer/loop/render_loop.h>
 #include "threshold.h"
 
 /// The thresholds of scene/ and render/. A row names the place in the core.
@@ -100,7 +100,7 @@ std::vector<Threshold> depth_thresholds() {
          return moments.variance().g;
        },
        {0, 0, 2}},
-      {"render/render_loop.cpp replicates < 2, an error limit is refused",
+      {"loop/render_loop.cpp replicates < 2, an error limit is refused",
        {0, 1, 2},
        [](double replicates) {
          SamplingOptions options;

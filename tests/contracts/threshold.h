@@ -19,7 +19,7 @@
 /// - sampling/discrete.cpp, a unit for every positive weight: lights_test.cpp
 /// - light/triangle_light.h, rounding at an edge: lights_test.cpp, renderer/light_test.cpp
 /// - render/path.cpp depth >= rr_depth: path_choice_test.cpp
-/// - render/render_loop.cpp passes and kSamplesPerTile, which may not show: renderer/render_test
+/// - loop/render_loop.cpp passes and kSamplesPerTile, which may not show: renderer/render_test
 /// - clamps to 1 and 0 of what rounding exceeds them by, which have no other side to be on.
 namespace plumbline::tests {
 

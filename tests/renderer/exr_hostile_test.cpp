@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/core/budgets.h>
 #include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/image_io/budgets.h>
 #include <plumbline/renderer/image_io/exr.h>
 
 /// OpenEXR files that claim what they do not hold, or are damaged, are refused with what is wrong;

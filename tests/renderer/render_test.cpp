@@ -2,7 +2,7 @@
 #include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/render/tiles.h>
+#include <plumbline/renderer/loop/tiles.h>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/core/budgets.h>
+#include <plumbline/renderer/image_io/budgets.h>
 
 #include "scene_text.h"
 

@@ -1,5 +1,6 @@
 #include "command_line.h"
 
+#include <gtest/gtest.h>
 #include <plumbline_tests/support.h>
 #include <pty.h>
 #include <sys/wait.h>
@@ -87,6 +88,13 @@ bool Running::waits_for(const std::function<bool()>& condition) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return false;
+}
+
+void expect_refused(const std::filesystem::path& directory, const std::string& arguments,
+                    const std::string& why, const std::string& before) {
+  const Outcome outcome = run_plumbline(directory, arguments, before);
+  EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.err;
+  EXPECT_NE(outcome.err.find(why), std::string::npos) << arguments << "\n" << outcome.err;
 }
 
 void Running::signal(int number) const { kill(child_, number); }

@@ -21,6 +21,10 @@ struct Outcome {
 Outcome run_plumbline(const std::filesystem::path& directory, const std::string& arguments,
                       const std::string& before = "");
 
+/// Expects exit code 2, and a message that says why.
+void expect_refused(const std::filesystem::path& directory, const std::string& arguments,
+                    const std::string& why, const std::string& before = "");
+
 /// Everything that `plumbline ARGUMENTS` shows on a terminal.
 std::string run_on_terminal(const std::filesystem::path& directory, const std::string& arguments);
 

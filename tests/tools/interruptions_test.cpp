@@ -135,9 +135,7 @@ TEST(Interruptions, ACheckpointOfAnotherRenderIsRefusedWithWhatIsAnother) {
             0);
   ASSERT_EQ(run_plumbline(scratch.path(), render + "--spp 8 --threads 1").exit_code, 0);
   const auto refused = [&](const std::string& options, const std::string& why) {
-    const Outcome outcome = run_plumbline(scratch.path(), render + options);
-    EXPECT_EQ(outcome.exit_code, 2) << options;
-    EXPECT_NE(outcome.err.find(why), std::string::npos) << options << "\n" << outcome.err;
+    expect_refused(scratch.path(), render + options, why);
   };
   refused("--spp 2", "state: holds 4 samples per pixel, more than --spp 2");
   refused("--seed 1", "seed: kept of 0, asked for 1");
@@ -218,9 +216,7 @@ TEST(Merge, RefusesWhatIsNoSum) {
   const std::string other =
       "render sphere_light --size 8x6 --spp 4 -o /dev/null --checkpoint other ";
   const auto refused = [&](const std::string& arguments, const std::string& why) {
-    const Outcome outcome = run_plumbline(scratch.path(), arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << arguments;
-    EXPECT_NE(outcome.err.find(why), std::string::npos) << arguments << "\n" << outcome.err;
+    expect_refused(scratch.path(), arguments, why);
   };
   refused("merge 1 2 -o x.exr", "16 of 48 pixels are in none of the checkpoints");
   refused("merge 1 2 3 2 -o x.exr", "2: holds samples of the seed 0 that 2 holds too");

@@ -20,9 +20,9 @@
 #include "correct_pairs.h"
 #include "dependent/point_sets.h"
 #include "joint_pairs.h"
+#include "judged_pair.h"
 #include "lattice.h"
 #include "pairs/batches.h"
-#include "pairs/battery.h"
 #include "pairs/jacobian.h"
 
 /// Numbers and sentences of the checks of pairs and BSDFs, of pairs so simple that they are known.

@@ -17,7 +17,7 @@
 #include "bsdfs/bsdf_checks.h"
 #include "correct_pairs.h"
 #include "diagnosis/diagnosis.h"
-#include "pairs/battery.h"
+#include "judged_pair.h"
 
 /// Faults put on correct pairs, with what the diagnosis has to name.
 namespace plumbline::verify {

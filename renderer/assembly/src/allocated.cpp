@@ -8,8 +8,8 @@
 
 #include <plumbline/renderer/assembly/direct.h>
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/render/tiles.h>
 #include <plumbline/renderer/core/sampling/pcg32.h>
+#include <plumbline/renderer/loop/tiles.h>
 
 namespace plumbline::renderer {
 namespace {
@@ -34,15 +34,6 @@ void check_allocation(const RenderOptions& options) {
   if (!(allocation.cost_ratio > 0 && std::isfinite(allocation.cost_ratio))) {
     throw InputError("the cost ratio of the sample allocation must be positive");
   }
-}
-
-RenderState first_state(const Camera& camera, const RenderOptions& options) {
-  if (options.interruptions.from) return *options.interruptions.from;
-  RenderState state;
-  state.film = Film(camera.width(), camera.height());
-  state.drawn.resize(state.film.pixels().size());
-  state.bsdf_counts.resize(state.drawn.size() * options.allocation->iterations);
-  return state;
 }
 
 void allocate_pixel(const Scene& scene, const RenderOptions& options, int x, int y,
@@ -86,7 +77,9 @@ std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterat
 RenderResult render_allocated(const Scene& scene, const RenderOptions& options) {
   check_allocation(options);
   const Camera& camera = scene.camera();
-  RenderState state = first_state(camera, options);
+  RenderState state = options.interruptions.from
+                          ? *options.interruptions.from
+                          : fresh_state(camera.width(), camera.height(), options);
   ProgressReport progress(options.progress, state.film.pixels().size());
   TileThreads threads(options.threads);
   bool stopped = false;

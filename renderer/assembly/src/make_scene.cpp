@@ -93,7 +93,7 @@ class SceneBuilder {
 
   void operator()(const SphereShape& s) {
     const Sphere sphere{local(s.center), static_cast<float>(s.radius * placement_.scale)};
-    const bool exact = add_exact({s.center, s.radius});
+    const bool exact = add_exact([&] { return surface_of(s); });
     if (!exact) geometry_.spheres.push_back(sphere);
     add_primitive(exact ? kExact : kSpheres, s.flip_normals, [&](const Rgbf& radiance) {
       return SphereLight{sphere.center, sphere.radius, s.flip_normals, radiance};
@@ -101,7 +101,7 @@ class SceneBuilder {
   }
 
   void operator()(const RectangleShape& s) {
-    if (add_exact({ExactShape::Outline::parallelogram, s.origin, s.edge_u, s.edge_v})) {
+    if (add_exact([&] { return surface_of(s); })) {
       const Vec3f o = local(s.origin), u = scaled(s.edge_u), v = scaled(s.edge_v);
       return add_primitive(kExact, s.flip_normals, [&](const Rgbf& radiance) {
         return rectangle_light(o, u, v, s.flip_normals, radiance);
@@ -125,7 +125,7 @@ class SceneBuilder {
   void operator()(const DiskShape& s) {
     const Disk disk{local(s.center), static_cast<float>(s.radius * placement_.scale)};
     const Vec3f normal = vec_cast<float>(s.normal);
-    const bool exact = add_exact(surface_of(s));
+    const bool exact = add_exact([&] { return surface_of(s); });
     if (!exact) {
       geometry_.disks.push_back(disk);
       geometry_.disk_normals.push_back(normal);
@@ -139,9 +139,9 @@ class SceneBuilder {
     const auto first = static_cast<std::uint32_t>(geometry_.vertices.size());
     for (const Vec3d& v : s.vertices) geometry_.vertices.push_back(local(v));
     for (const Triangle& t : s.triangles) {
-      const Vec3d &a = s.vertices[t[0]], ab = s.vertices[t[1]] - a, ac = s.vertices[t[2]] - a;
-      if (add_exact({ExactShape::Outline::triangle, a, ab, ac})) {
+      if (add_exact([&] { return surface_of(s, t); })) {
         add_primitive(kExact, s.flip_normals, [&](const Rgbf& radiance) {
+          const Vec3d &a = s.vertices[t[0]], ab = s.vertices[t[1]] - a, ac = s.vertices[t[2]] - a;
           return triangle_light(local(a), scaled(ab), scaled(ac), s.flip_normals, radiance);
         });
         continue;
@@ -178,12 +178,13 @@ class SceneBuilder {
   }
 
   /// Counts a surface, and adds it if it is one of those that have to be exact.
-  bool add_exact(const ExactShape& surface) {
+  template <class Surface>
+  bool add_exact(const Surface& surface) {
     const auto found = placement_.exact.find(surface_++);
     if (found == placement_.exact.end()) return false;
     const auto& [number, first] = *found;
     exact_indices_.emplace(number, geometry_.exact.size());
-    geometry_.exact.push_back(surface.moved(placement_.center, placement_.scale));
+    geometry_.exact.push_back(surface().moved(placement_.center, placement_.scale));
     if (first != number) geometry_.exact.back().lay_onto(geometry_.exact[exact_indices_.at(first)]);
     return true;
   }

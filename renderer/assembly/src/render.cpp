@@ -7,7 +7,7 @@
 
 #include <plumbline/renderer/batched/batch.h>
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/render/tiles.h>
+#include <plumbline/renderer/loop/tiles.h>
 
 #include "allocated.h"
 #include "batched_bsdfs.h"
@@ -34,6 +34,15 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
   }
   if (options.allocation) return render_allocated(scene, options);
   return {run_render_loop(scene.camera(), options, pixel_samplers(scene, options)), {}};
+}
+
+RenderState fresh_state(int width, int height, const RenderOptions& options) {
+  const SamplingOptions& sampling = options;
+  RenderState state = fresh_state(width, height, sampling);
+  if (options.allocation) {
+    state.bsdf_counts.resize(state.drawn.size() * options.allocation->iterations);
+  }
+  return state;
 }
 
 std::optional<NonFinite> first_non_finite(const Scene& scene, const RenderOptions& options,

@@ -13,7 +13,7 @@
 #include <new>
 #include <system_error>
 
-#include <plumbline/renderer/core/budgets.h>
+#include <plumbline/renderer/image_io/budgets.h>
 
 namespace plumbline::renderer {
 namespace {

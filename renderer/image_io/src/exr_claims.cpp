@@ -9,8 +9,8 @@
 #include <string>
 #include <type_traits>
 
-#include <plumbline/renderer/core/budgets.h>
 #include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/image_io/budgets.h>
 #include <plumbline/renderer/image_io/exr.h>
 
 namespace plumbline::renderer {

@@ -17,9 +17,15 @@ namespace {
 
 struct Numbered {
   ExactShape surface;
-  ExactShape::Box box;
+  double tolerance;
+  ExactShape::Box box;  // around it and its tolerance
   std::size_t shape, number;
 };
+
+bool are_apart(const ExactShape::Box& a, const ExactShape::Box& b) {
+  return a.low.x > b.high.x || b.low.x > a.high.x || a.low.y > b.high.y || b.low.y > a.high.y ||
+         a.low.z > b.high.z || b.low.z > a.high.z;
+}
 
 /// How far corners of the smaller lie from the plane of the larger, at most [m].
 double largest_gap(const ExactShape& smaller, const ExactShape& larger) {
@@ -66,8 +72,8 @@ class Finder {
     });
     for (std::size_t i = 0; i < single_.size(); ++i) {
       for (std::size_t j = i + 1; j < single_.size(); ++j) {
-        if (single_[j].box.low.x > single_[i].box.high.x + tolerance(single_[i].surface)) break;
-        compare(single_[i], single_[j]);
+        if (single_[j].box.low.x > single_[i].box.high.x) break;
+        if (!are_apart(single_[i].box, single_[j].box)) compare(single_[i], single_[j]);
       }
     }
     compare_triangles();
@@ -84,13 +90,20 @@ class Finder {
                       std::abs(n.y * o.y) + std::abs(n.z * o.z));
   }
 
+  Numbered numbered(const ExactShape& s, std::size_t shape, std::size_t number) const {
+    const double most = tolerance(s);
+    const Vec3d margin{most, most, most};
+    const auto [low, high] = s.box();
+    return {s, most, {low - margin, high + margin}, shape, number};
+  }
+
   void collect() {
     std::size_t number = 0;
     for (std::size_t shape = 0; shape < scene_.shapes.size(); ++shape) {
       const bool mesh = std::holds_alternative<MeshShape>(scene_.shapes[shape].geometry);
       if (mesh) meshes_.emplace_back(shape, number);
       for_each_surface(scene_.shapes[shape], [&](const ExactShape& s) {
-        if (!mesh) single_.push_back({s, s.box(), shape, number});
+        if (!mesh) single_.push_back(numbered(s, shape, number));
         ++number;
       });
     }
@@ -107,7 +120,7 @@ class Finder {
       if (gap <= 0x1p-22 * smaller.radius()) found(a, b);
       return;
     }
-    const double most = tolerance(smaller);
+    const double most = (a_smaller ? a : b).tolerance;
     if (std::abs(dot(larger.normal(), smaller.origin() - larger.origin())) > most) return;
     const double gap = largest_gap(smaller, larger);
     if (gap > most || !overlap(corners_of(smaller), corners_of(larger), larger.normal())) return;
@@ -120,12 +133,12 @@ class Finder {
     for (const auto& [shape, first] : meshes_) {
       std::size_t number = first;
       for_each_surface(scene_.shapes[shape], [&, shape = shape](const ExactShape& triangle) {
+        const Numbered t = numbered(triangle, shape, number);
         for (const Numbered& other : single_) {
-          if (other.surface.is_flat() &&
-              std::abs(dot(other.surface.normal(), triangle.origin() - other.surface.origin())) <=
-                  tolerance(triangle)) {
-            compare({triangle, {}, shape, number}, other);
-          }
+          if (other.box.low.x > t.box.high.x) break;
+          if (are_apart(t.box, other.box) || !other.surface.is_flat()) continue;
+          const Vec3d between = triangle.origin() - other.surface.origin();
+          if (std::abs(dot(other.surface.normal(), between)) <= t.tolerance) compare(t, other);
         }
         hashes.push_back({hash_of(triangle), {number, shape}});
         ++number;

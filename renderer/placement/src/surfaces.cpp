@@ -53,21 +53,28 @@ double at_least_from(const ExactShape& surface, const Vec3d& p) {
 
 void for_each_surface(const ShapeDescription& shape,
                       const std::function<void(const ExactShape&)>& function) {
-  using Outline = ExactShape::Outline;
   if (const auto* sphere = std::get_if<SphereShape>(&shape.geometry)) {
-    function({sphere->center, sphere->radius});
+    function(surface_of(*sphere));
   } else if (const auto* r = std::get_if<RectangleShape>(&shape.geometry)) {
-    function({Outline::parallelogram, r->origin, r->edge_u, r->edge_v});
+    function(surface_of(*r));
   } else if (const auto* disk = std::get_if<DiskShape>(&shape.geometry)) {
     function(surface_of(*disk));
   } else {
     const auto& mesh = std::get<MeshShape>(shape.geometry);
-    for (const auto& t : mesh.triangles) {
-      const Vec3d& corner = mesh.vertices[t[0]];
-      function(
-          {Outline::triangle, corner, mesh.vertices[t[1]] - corner, mesh.vertices[t[2]] - corner});
-    }
+    for (const auto& triangle : mesh.triangles) function(surface_of(mesh, triangle));
   }
+}
+
+ExactShape surface_of(const SphereShape& sphere) { return {sphere.center, sphere.radius}; }
+
+ExactShape surface_of(const RectangleShape& r) {
+  return {ExactShape::Outline::parallelogram, r.origin, r.edge_u, r.edge_v};
+}
+
+ExactShape surface_of(const MeshShape& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  const Vec3d& corner = mesh.vertices[triangle[0]];
+  return {ExactShape::Outline::triangle, corner, mesh.vertices[triangle[1]] - corner,
+          mesh.vertices[triangle[2]] - corner};
 }
 
 ExactShape surface_of(const DiskShape& disk) {

@@ -1,6 +1,8 @@
 #include <cmath>
 #include <limits>
 
+#include <plumbline/renderer/placement/placement.h>
+
 #include "parts.h"
 
 namespace plumbline::renderer {
@@ -28,39 +30,21 @@ struct Extent {
     }
     add(std::sqrt(squared), depth);
   }
-
-  void add_points(const CameraDescription& camera, std::initializer_list<Vec3d> points) {
-    Vec3d low = *points.begin(), high = low;
-    for (const Vec3d& p : points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    add_box(camera, low, high);
-  }
 };
 
 Extent extent_of(const SceneDescription& scene) {
   Extent extent;
   const CameraDescription& camera = scene.camera;
   for (const ShapeDescription& shape : scene.shapes) {
-    if (const auto* sphere = std::get_if<SphereShape>(&shape.geometry)) {
-      const Vec3d offset = sphere->center - camera.origin;
-      extent.add(std::abs(length(offset) - sphere->radius),
-                 dot(offset, camera.forward) + sphere->radius);
-    } else if (const auto* r = std::get_if<RectangleShape>(&shape.geometry)) {
-      extent.add_points(camera, {r->origin, r->origin + r->edge_u, r->origin + r->edge_v,
-                                 r->origin + r->edge_u + r->edge_v});
-    } else if (const auto* disk = std::get_if<DiskShape>(&shape.geometry)) {
-      const auto reach = [&](double n) {
-        return disk->radius * std::sqrt(std::max(1 - n * n, 0.0));
-      };
-      const Vec3d half{reach(disk->normal.x), reach(disk->normal.y), reach(disk->normal.z)};
-      extent.add_box(camera, disk->center - half, disk->center + half);
-    } else if (const auto* mesh = std::get_if<MeshShape>(&shape.geometry)) {
-      for (const auto& [a, b, c] : mesh->triangles) {
-        extent.add_points(camera, {mesh->vertices[a], mesh->vertices[b], mesh->vertices[c]});
+    for_each_surface(shape, [&](const ExactShape& surface) {
+      if (surface.is_flat()) {
+        const auto [low, high] = surface.box();
+        return extent.add_box(camera, low, high);
       }
-    }
+      const Vec3d offset = surface.origin() - camera.origin;
+      extent.add(std::abs(length(offset) - surface.radius()),
+                 dot(offset, camera.forward) + surface.radius());
+    });
   }
   return extent;
 }

@@ -10,7 +10,7 @@
 
 #include <plumbline/renderer/assembly/bsdf.h>
 #include <plumbline/renderer/assembly/description.h>
-#include <plumbline/renderer/core/budgets.h>
+#include <plumbline/renderer/image_io/budgets.h>
 
 #include "object.h"
 
@@ -68,6 +68,7 @@ struct Reading {
   std::map<std::string, std::uint32_t> bsdfs_by_id = {};
   std::optional<std::uint32_t> default_bsdf = {};             ///< of shapes without one
   std::vector<std::pair<std::size_t, Node>> references = {};  ///< shapes with their <ref>s
+
   /// Says of a shape or light where it stands.
   template <class Described>
   void place(Node node, Described& described) {

@@ -14,6 +14,9 @@
 
 #include <plumbline/output/failure.h>
 #include <plumbline/renderer/core/errors.h>
+#include <plumbline/renderer/image_io/budgets.h>
+
+#include "hash.h"
 
 namespace plumbline::output {
 namespace {
@@ -31,21 +34,11 @@ static_assert(std::is_trivially_copyable_v<PixelMoments> && sizeof(PixelMoments)
               "another field of the moments is another format");
 static_assert(std::is_trivially_copyable_v<renderer::PathCounters>);
 
-class Hash {
- public:
-  void add(std::string_view bytes) {
-    for (const char c : bytes) value_ = (value_ ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  }
-  /// Told from other texts in a row.
-  void add_text(std::string_view text) {
-    add(fmt::format("{}:", text.size()));
-    add(text);
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 14695981039346656037u;
-};
+/// Told from other texts in a row.
+void add_text(Hash& hash, std::string_view text) {
+  hash.add(fmt::format("{}:", text.size()));
+  hash.add(text);
+}
 
 template <class T>
 std::string_view bytes_of(std::span<const T> values) {
@@ -196,7 +189,7 @@ Checkpoint read_checkpoint(const fs::path& path) {
   Checkpoint checkpoint;
   checkpoint.settings = read_settings(in);
   const auto counts = in.value<Counts>();
-  constexpr std::uint32_t kMaxSide = 1u << 16;
+  constexpr std::uint32_t kMaxSide = renderer::kMaxImageSide;
   if (counts.width > kMaxSide || counts.height > kMaxSide) in.refuse("has an unreasonable size");
   const std::uint64_t pixels = std::uint64_t{counts.width} * counts.height;
   RenderState& state = checkpoint.state;
@@ -246,11 +239,11 @@ std::uint64_t content_hash(const std::vector<fs::path>& files,
       hash.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
       size += static_cast<std::uint64_t>(in.gcount());
     }
-    hash.add_text(fmt::format("{} bytes", size));
+    add_text(hash, fmt::format("{} bytes", size));
   }
   for (const auto& [name, value] : parameters) {
-    hash.add_text(name);
-    hash.add_text(value);
+    add_text(hash, name);
+    add_text(hash, value);
   }
   return hash.value();
 }

@@ -8,7 +8,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <system_error>
@@ -16,18 +15,18 @@
 #include <plumbline/output/failure.h>
 #include <plumbline/output/stop.h>
 
+#include "hash.h"
+
 namespace plumbline::output {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The same for the same target, and short: a name of 255 bytes has room for no more. FNV-1a.
+/// The same for the same target, and short: a name of 255 bytes has room for no more.
 std::string prefix_of(const fs::path& target) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : target.filename().string()) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  }
-  return fmt::format(".plumbline-{:016x}-", hash);
+  Hash hash;
+  hash.add(target.filename().string());
+  return fmt::format(".plumbline-{:016x}-", hash.value());
 }
 
 bool is_still_at(int file, const fs::path& path) {

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <vector>
 
+#include "directions.h"
 #include "pairs/batches.h"
 #include "pairs/uniforms.h"
 #include "streams.h"
@@ -21,13 +20,6 @@ namespace plumbline::verify {
 namespace {
 
 constexpr std::size_t kQuestions = 512;
-
-/// Uniform on the sphere.
-Vec3 direction(Random& random) {
-  const double z = 2 * random.uniform() - 1, phi = 2 * std::numbers::pi * random.uniform();
-  const double radius = std::sqrt(1 - z * z);
-  return {radius * std::cos(phi), radius * std::sin(phi), z};
-}
 
 /// The same bits; a NaN is itself.
 bool same(double a, double b) {
@@ -92,8 +84,8 @@ void require_pure(const std::string& name, const ErasedBsdf& bsdf, std::uint64_t
   std::vector<Uniforms> u(kQuestions);
   std::vector<Random> generators;
   for (std::size_t i = 0; i < kQuestions; ++i) {
-    wo[i] = direction(random);
-    wi[i] = direction(random);
+    wo[i] = uniform_direction(random);
+    wi[i] = uniform_direction(random);
     u[i] = draw_uniforms(random, bsdf.numbers, bsdf.epsilon);
     generators.emplace_back(random.bits());
   }

@@ -175,7 +175,7 @@ CheckResult judge_sequence(const MeanSequence& sequence, const MeanSequenceOptio
   r.subject = options.subject;
   r.leaned_on = "asymptotic confidence sequence, skewness guard";
   r.figures.push_back({"nights", static_cast<double>(sequence.nights)});
-  r.figures.push_back({"batches", n});
+  r.figures.push_back({Figure::batches, n});
   return r;
 }
 

@@ -7,6 +7,7 @@
 #include <plumbline/verify/history/confidence_sequence.h>
 
 #include "history/code_change.h"
+#include "means/proportion_claim.h"
 #include "text.h"
 
 namespace plumbline::verify::history {
@@ -123,24 +124,11 @@ CheckResult judge_sequence(const ProportionSequence& sequence, const ProportionO
   const Interval proven = probabilities(hits, misses, budget.pass_level());
   const Interval sure = probabilities(hits, misses, budget.fail_level());
   r.estimate = hits / (hits + misses);
-  r.interval = proven;
   r.figures = {{"nights", static_cast<double>(sequence.nights)},
                {Figure::hits, hits},
                {Figure::at_least, claim.at_least},
                {Figure::at_most, claim.at_most}};
-  if (sure.low > claim.at_most) {
-    r.verdict = Verdict::fail;
-    r.reason = "the share is at least " + number(sure.low) + ", the claim is at most " +
-               number(claim.at_most);
-  } else if (sure.high < claim.at_least) {
-    r.verdict = Verdict::fail;
-    r.reason = "the share is at most " + number(sure.high) + ", the claim is at least " +
-               number(claim.at_least);
-  } else if (proven.low >= claim.at_least && proven.high <= claim.at_most) {
-    r.verdict = Verdict::pass;
-  } else {
-    r.reason = "the interval straddles the claim";
-  }
+  judge_proportion_claim(claim, proven, sure, r);
   return r;
 }
 

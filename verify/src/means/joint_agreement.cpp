@@ -93,7 +93,7 @@ class JointAgreement {
     CheckResult r = results_[at];
     if (!r.reason.empty()) r.reason = quantities_[at].name + ": " + r.reason;
     // Of several the worst is no unbiased estimate of anything, which its reader must know.
-    r.figures.emplace_back("quantities", static_cast<double>(results_.size()));
+    r.figures.emplace_back(Figure::quantities, static_cast<double>(results_.size()));
     if (r.verdict == Verdict::inconclusive) r.advice = "raise `max_samples`";
     return r;
   }

@@ -6,7 +6,7 @@
 #include <plumbline/verify/ratio.h>
 
 #include "distributions.h"
-#include "text.h"
+#include "means/proportion_claim.h"
 
 namespace plumbline::verify {
 
@@ -50,24 +50,11 @@ CheckResult check_proportion(const ProportionOptions& o, std::uint64_t hits, std
   r.seed = o.seed;
   r.samples = trials;
   r.estimate = k / n;
-  r.interval = proven;
   r.p_value = claim_p_value(o, k / n, k, n);
   r.leaned_on = "exact binomial interval";
   r.figures = {{Figure::hits, k}, {Figure::at_least, o.at_least}, {Figure::at_most, o.at_most}};
-  if (sure.low > o.at_most) {
-    r.verdict = Verdict::fail;
-    r.reason =
-        "the share is at least " + number(sure.low) + ", the claim is at most " + number(o.at_most);
-  } else if (sure.high < o.at_least) {
-    r.verdict = Verdict::fail;
-    r.reason = "the share is at most " + number(sure.high) + ", the claim is at least " +
-               number(o.at_least);
-  } else if (proven.low >= o.at_least && proven.high <= o.at_most) {
-    r.verdict = Verdict::pass;
-  } else {
-    r.reason = "the interval straddles the claim";
-    r.advice = "more trials narrow it";
-  }
+  judge_proportion_claim(o, proven, sure, r);
+  if (r.verdict == Verdict::inconclusive) r.advice = "more trials narrow it";
   r.seconds = watch.seconds();
   return r;
 }

@@ -16,7 +16,6 @@ namespace plumbline::verify {
 namespace {
 
 constexpr std::size_t kMinimumBatches = 16;
-constexpr double kBatchShareLimit = 0.25;
 
 /// A variance estimated from all batches, and from all but one of them.
 struct LeaveOneOut {
@@ -126,7 +125,7 @@ CheckResult judge_ratio(const VarianceRatioOptions& options, const LeaveOneOut& 
                {Figure::variance_of_b, b.all},
                {Figure::largest_batch_of_a, a.largest_share},
                {Figure::largest_batch_of_b, b.largest_share},
-               {"batches", static_cast<double>(a.without.size())}};
+               {Figure::batches, static_cast<double>(a.without.size())}};
   if (options.at_least) r.figures.emplace_back(Figure::at_least, *options.at_least);
   if (options.at_most) r.figures.emplace_back(Figure::at_most, *options.at_most);
   if (a.non_finite + b.non_finite > 0) {
@@ -142,7 +141,7 @@ CheckResult judge_ratio(const VarianceRatioOptions& options, const LeaveOneOut& 
   const double log_ratio = std::log(a.all / b.all);
   const JackknifedLog jackknifed = jackknife(a, b);
   const double error = jackknifed.error;
-  r.figures.push_back({"error of the logarithm", error});
+  r.figures.push_back({Figure::error_of_logarithm, error});
   const auto interval = [&](double level) {
     return skewed_interval(log_ratio, error, jackknifed.skewness, student_quantile(level, degrees));
   };

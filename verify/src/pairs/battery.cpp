@@ -138,16 +138,6 @@ PairOutcome PairBattery::outcome() {
 
 std::vector<BinSeen> PairBattery::bins_seen() const { return bins_of(*binned_); }
 
-PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options) {
-  Progress progress(pair.name, options);
-  PairBattery battery(pair, options, progress);
-  battery.judge_points();
-  battery.judge_samples();
-  PairOutcome outcome = battery.outcome();
-  outcome.view.bins = battery.bins_seen();
-  return outcome;
-}
-
 void name_cause(const Cause& cause, Report& report) {
   report.cause = cause.headline;
   report.second_cause = cause.second;

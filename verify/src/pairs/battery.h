@@ -55,9 +55,6 @@ class PairBattery {
   std::optional<BinnedPair> binned_;
 };
 
-/// All of it.
-PairOutcome judge_pair(const SamplingPair& pair, const ContractOptions& options);
-
 /// Inconclusive: nothing is wrong with black, and every check of it passes, but more often than not
 /// something else is meant.
 CheckResult nothing_sampled(const std::string& name, const ContractOptions& options,

@@ -93,12 +93,6 @@ MeanOptions mean_options(const StochasticView& view, const std::string& check) {
 
 double pdf_or_nan(double pdf) { return pdf >= 0 ? pdf : std::numeric_limits<double>::quiet_NaN(); }
 
-Vec3 uniform_direction(Random& random) {
-  const double z = 1 - 2 * random.uniform(), phi = 2 * std::numbers::pi * random.uniform();
-  const double r = std::sqrt(std::max(0.0, 1 - z * z));
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
-
 Report check_stochastic_bsdf(const StochasticBsdf& bsdf, const StochasticOptions& options) {
   refuse_senseless_views(bsdf, options);
   Report all;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bsdfs/bsdf_result.h"
+#include "directions.h"
 #include "means/joint_agreement.h"
 #include "stochastic/views.h"
 #include "streams.h"

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "directions.h"
 #include "means/joint_agreement.h"
 #include "stochastic/views.h"
 #include "streams.h"

@@ -48,6 +48,4 @@ inline bool is_atom(const SampleRecord& sample) { return sample.mass != 0; }
 /// What pdf returned, or NaN, which fails, where that is no density.
 double pdf_or_nan(double pdf);
 
-Vec3 uniform_direction(Random& random);
-
 }  // namespace plumbline::verify

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 /// What files of results may ask for, all in one place; for scenes and images it is the renderer's
-/// core/budgets.h. A run of the gate writes some thousand records of a few kilobytes, a year of
+/// image_io/budgets.h. A run of the gate writes some thousand records of a few kilobytes, a year of
 /// nights one record of a megabyte.
 namespace plumbline::reports {
 

@@ -11,6 +11,10 @@
 
 namespace plumbline::verify {
 
+/// Largest share of a variance that one batch may carry: above, the tail decides, and nothing is
+/// decided.
+inline constexpr double kBatchShareLimit = 0.25;
+
 /// A claim about the ratio variance(a)/variance(b).
 struct VarianceRatioOptions : CheckSettings {
   std::string subject;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <plumbline/renderer/core/render/render_state.h>
+#include <plumbline/renderer/loop/render_state.h>
 
 /// Renders that were kept half done, to go on from. Format "plumbline.checkpoint/1": lines
 /// "name=value" up to an empty one, then the moments of each replicate of each pixel as they are in

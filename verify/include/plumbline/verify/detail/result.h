@@ -74,12 +74,15 @@ enum class Figure {
   non_finite,     ///< samples
   mean_of_a,
   mean_of_b,
+  quantities,  ///< that were judged, of which this is the worst
 
   // Ratios of variances, proportions.
   variance_of_a,
   variance_of_b,
   largest_batch_of_a,  ///< its share of the variance
   largest_batch_of_b,
+  batches,
+  error_of_logarithm,  ///< standard error of the logarithm of the ratio
   hits,
   at_least,
   at_most,

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include <plumbline/renderer/core/render/render_loop.h>
 #include <plumbline/renderer/estimators/allocation.h>
+#include <plumbline/renderer/loop/render_loop.h>
 
 namespace plumbline::renderer {
 
@@ -51,6 +51,9 @@ SamplerFactory pixel_samplers(const Scene& scene, const RenderOptions& options);
 ///         for an error limit on one replicate of Sobol points, whose error is not known, and for
 ///         an allocation that the other options do not fit
 RenderResult render(const Scene& scene, const RenderOptions& options);
+
+/// The state of a render that has not begun.
+RenderState fresh_state(int width, int height, const RenderOptions& options);
 
 struct NonFinite {
   int x = 0, y = 0;                     ///< pixel, from the upper left one

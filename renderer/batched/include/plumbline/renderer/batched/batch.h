@@ -5,7 +5,7 @@
 
 #include <plumbline/renderer/batched/bsdf_kernels.h>
 #include <plumbline/renderer/core/render/path.h>
-#include <plumbline/renderer/core/render/render_loop.h>
+#include <plumbline/renderer/loop/render_loop.h>
 
 namespace plumbline::renderer {
 

@@ -33,7 +33,7 @@ void write_exr(const std::filesystem::path& path, const Image& image);
 
 /// Reads R, G, B (or Y alone) and, where present, the layers that write_exr makes.
 ///
-/// @throws BudgetError "file: what" for one that claims more than core/budgets.h has for it, or
+/// @throws BudgetError "file: what" for one that claims more than image_io/budgets.h has for it, or
 /// than
 ///         it can hold, before memory is taken for that; InputError for anything else that is not
 ///         such an image

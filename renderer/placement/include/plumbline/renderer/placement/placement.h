@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -29,11 +31,15 @@ struct Placement {
   std::map<std::size_t, std::size_t> exact;
 };
 
+// Shapes as surfaces; of a mesh, its triangles.
+ExactShape surface_of(const SphereShape& sphere);
+ExactShape surface_of(const RectangleShape& rectangle);
+ExactShape surface_of(const DiskShape& disk);
+ExactShape surface_of(const MeshShape& mesh, const std::array<std::uint32_t, 3>& triangle);
+
 /// Calls with each surface of a shape: itself, or each triangle of a mesh.
 void for_each_surface(const ShapeDescription& shape,
                       const std::function<void(const ExactShape&)>& function);
-
-ExactShape surface_of(const DiskShape& disk);
 
 /// Surfaces are numbered through in the order of the scene.
 ///

@@ -6,9 +6,9 @@
 
 #include <plumbline/renderer/core/render/film.h>
 #include <plumbline/renderer/core/render/path.h>
-#include <plumbline/renderer/core/render/render_state.h>
 #include <plumbline/renderer/core/sampling/sampler.h>
 #include <plumbline/renderer/core/scene/scene.h>
+#include <plumbline/renderer/loop/render_state.h>
 
 namespace plumbline::renderer {
 
@@ -30,6 +30,9 @@ struct SamplingOptions {
   std::function<void(double)> progress;
   Interruptions interruptions;
 };
+
+/// The state of a render that has not begun.
+RenderState fresh_state(int width, int height, const SamplingOptions& options);
 
 /// Draws samples of pixels; each thread has one of its own.
 class PixelSampler {

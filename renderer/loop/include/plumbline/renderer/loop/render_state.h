@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -22,6 +23,9 @@ struct RenderState {
 
   /// Samples that every pixel has; without pixels, the largest number.
   std::uint32_t least_drawn() const;
+
+  /// Makes a pixel of the film what its replicates come to.
+  void sum_replicates(std::size_t pixel);
 };
 
 /// How a render is stopped, kept, and gone on with. All may be empty. What is asked for is looked

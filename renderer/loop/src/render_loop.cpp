@@ -1,4 +1,4 @@
-#include <plumbline/renderer/core/render/render_loop.h>
+#include <plumbline/renderer/loop/render_loop.h>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <plumbline/renderer/core/errors.h>
-#include <plumbline/renderer/core/render/tiles.h>
+#include <plumbline/renderer/loop/tiles.h>
 
 namespace plumbline::renderer {
 namespace {
@@ -41,12 +41,13 @@ class RenderLoop {
              const SamplerFactory& make_sampler)
       : options_(options),
         threads_(options.threads),
-        state_(first_state(camera, options)),
+        state_(options.interruptions.from ? *options.interruptions.from
+                                          : fresh_state(camera.width(), camera.height(), options)),
         before_{state_.counters, state_.seconds},
         progress_(options.progress, state_.drawn.size() * options.samples_per_pixel),
         samplers_(make_sampler) {
-    const Tile all{0, camera.width(), 0, camera.height()};
-    if (!dealt().empty()) all.for_each_pixel([&](int x, int y) { sum_replicates(x, y); });
+    if (dealt().empty()) return;
+    for (std::size_t i = 0; i < state_.drawn.size(); ++i) state_.sum_replicates(i);
   }
 
   LoopResult run() {
@@ -68,16 +69,6 @@ class RenderLoop {
     PathCounters counters;
     double seconds = 0;
   };
-
-  static RenderState first_state(const Camera& camera, const SamplingOptions& options) {
-    if (options.interruptions.from) return *options.interruptions.from;
-    RenderState state;
-    state.film = Film(camera.width(), camera.height());
-    const std::size_t pixels = state.film.pixels().size();
-    if (options.sampler == SamplerType::sobol) state.replicates.resize(pixels * options.replicates);
-    state.drawn.resize(pixels);
-    return state;
-  }
 
   /// Samples of every pixel; without pixels, all.
   std::uint32_t drawn() const { return std::min(state_.least_drawn(), options_.samples_per_pixel); }
@@ -141,7 +132,9 @@ class RenderLoop {
       PixelSampler& sampler = *samplers_.local();
       tile.for_each_pixel([&](int x, int y) { render_pixel(x, y, done + samples, sampler); });
       sampler.finish();
-      if (!dealt().empty()) tile.for_each_pixel([&](int x, int y) { sum_replicates(x, y); });
+      if (!dealt().empty()) {
+        tile.for_each_pixel([&](int x, int y) { state_.sum_replicates(state_.film.index(x, y)); });
+      }
       progress_.advance(tile.pixels() * samples);
     });
   }
@@ -166,15 +159,6 @@ class RenderLoop {
     }
   }
 
-  void sum_replicates(int x, int y) {
-    const std::size_t index = state_.film.index(x, y);
-    PixelMoments& pixel = state_.film.pixels()[index];
-    pixel = {};
-    const auto dealt =
-        std::span(state_.replicates).subspan(index * options_.replicates, options_.replicates);
-    for (const PixelMoments& replicate : dealt) pixel.add_replicate(replicate);
-  }
-
   const SamplingOptions& options_;
   TileThreads threads_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -191,6 +175,24 @@ std::uint32_t RenderState::least_drawn() const {
   std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
   for (const std::uint32_t samples : drawn) least = std::min(least, samples);
   return least;
+}
+
+void RenderState::sum_replicates(std::size_t pixel) {
+  PixelMoments& sum = film.pixels()[pixel];
+  sum = {};
+  const std::size_t of_each = replicates.size() / drawn.size();
+  for (const PixelMoments& replicate : std::span(replicates).subspan(pixel * of_each, of_each)) {
+    sum.add_replicate(replicate);
+  }
+}
+
+RenderState fresh_state(int width, int height, const SamplingOptions& options) {
+  RenderState state;
+  state.film = Film(width, height);
+  const std::size_t pixels = state.film.pixels().size();
+  state.drawn.resize(pixels);
+  if (options.sampler == SamplerType::sobol) state.replicates.resize(pixels * options.replicates);
+  return state;
 }
 
 Slice::Slice(const Interruptions& interruptions)

@@ -1,4 +1,4 @@
-#include <plumbline/renderer/core/render/tiles.h>
+#include <plumbline/renderer/loop/tiles.h>
 
 #include <oneapi/tbb/blocked_range2d.h>
 #include <oneapi/tbb/info.h>
