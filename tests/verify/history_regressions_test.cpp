@@ -140,7 +140,7 @@ TEST(History, MissingNightsWidenTheRangeOfCommits) {
   EXPECT_EQ(judged.changes[0].commit_first, "c32");
 }
 
-TEST(History, AChangeTakesThreeNightsAndTenInAll) {
+TEST(History, AChangeTakesFiveNightsAndTenInAll) {
   // Nights without chance: of noisy ones one in a thousand is left out for its own scatter.
   const auto judged = [](int nights, int from) {
     Series series;
@@ -153,8 +153,8 @@ TEST(History, AChangeTakesThreeNightsAndTenInAll) {
     }
     return judge_history(series).changes.size();
   };
-  EXPECT_EQ(judged(32, 30), 0u);
-  EXPECT_EQ(judged(33, 30), 1u);
+  EXPECT_EQ(judged(34, 30), 0u);
+  EXPECT_EQ(judged(35, 30), 1u);
   EXPECT_EQ(judged(9, 5), 0u);
   EXPECT_EQ(judged(10, 5), 1u);
 }

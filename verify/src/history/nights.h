@@ -10,7 +10,7 @@ namespace plumbline::verify::history {
 /// The nights that a history is judged by.
 struct KeptNights {
   std::vector<std::size_t> index;  ///< in the series
-  std::vector<double> level;       ///< logarithm of the median
+  std::vector<double> level;       ///< logarithm of the night's best value
   std::vector<std::size_t> odd;    ///< nights that were left out, in the series
 };
 

@@ -16,7 +16,9 @@ namespace plumbline::verify::history {
 namespace {
 
 constexpr std::size_t kFewestNights = 10;
-constexpr std::size_t kFewestAtALevel = 3;
+// A step is placed by three nights and counts with five: bad stretches of a machine are shorter.
+constexpr std::size_t kFewestToPlace = 3;
+constexpr std::size_t kFewestAtALevel = 5;
 constexpr std::size_t kWindow = 60;
 // Of the second detector: its nights on each side, its level and its permutations.
 constexpr std::size_t kNightsCompared = 20;
@@ -72,7 +74,7 @@ std::vector<Agreed> agreed_points(const Series& series, const KeptNights& kept,
   ChangePointOptions search;
   search.window = kWindow;
   search.max_p_value = change_level(options);
-  search.min_segment = kFewestAtALevel;
+  search.min_segment = kFewestToPlace;
   search.variance_inflation = inflation(options);
   std::vector<Agreed> result;
   for (const ChangePoint& point : find_change_points(kept.level, search)) {
@@ -98,6 +100,12 @@ std::vector<Way> ways_up_and_down(const std::vector<Agreed>& points) {
     result.back().end = next.point.segment_end;
   }
   return result;
+}
+
+/// Whether the levels on both sides have lasted.
+bool lasts(const Way& way) {
+  return way.points.front().point.index - way.begin >= kFewestAtALevel &&
+         way.end - way.points.back().point.index >= kFewestAtALevel;
 }
 
 /// Squared deviations from the levels between the points of a way.
@@ -173,6 +181,7 @@ std::vector<Change> measured_changes(const Series& series, const KeptNights& kep
                                      const HistoryOptions& options) {
   std::vector<Change> result;
   for (const Way& way : ways_up_and_down(agreed_points(series, kept, options))) {
+    if (!lasts(way)) continue;
     if (const std::optional<Ramp> ramp = drift_of(kept.level, way, inflation(options))) {
       result.push_back(drift(series, kept, way, *ramp, options));
       continue;

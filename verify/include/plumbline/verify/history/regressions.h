@@ -54,7 +54,7 @@ struct Change {
   std::string commit_before;    ///< the last one measured before: not the cause
   std::string commit_first;     ///< that of first_night: the cause lies after commit_before, up to
   std::string commit_last;      ///< this: that of last_night
-  double before = 0, after = 0;  ///< typical value on each side, in units of the number
+  double before = 0, after = 0;  ///< mean level of best values on each side, in units of the number
   double relative = 0;           ///< after/before − 1
   double low = 0, high = 0;      ///< its interval; of a counter the value itself
   double means_p_value = 0;      ///< first detector: E-divisive means with Student's t; counter: 0
@@ -78,13 +78,14 @@ double change_level(const HistoryOptions& options);
 ///
 /// A counter changes with the first night that counts otherwise; it needs one night.
 ///
-/// A measured number is judged by its nights' medians, as logarithms. Nights that lie far from
-/// their neighbours on both sides (six robust standard deviations from the median of five) are left
-/// out: one or two bad nights are no change, which takes three. E-divisive means with Student's t
-/// propose changes, with the errors that correlated nights have, at `change_level`; one is reported
-/// where the distributions of up to twenty nights on each side differ too (energy distance, whole
-/// nights permuted, p ≤ 0.01), to the same side. Less than ten nights show nothing. Where several
-/// steps, or one, fit worse than a ramp over five nights or more (BIC), it is one drift.
+/// A measured number is judged by each night's best value, as a logarithm: what disturbs a machine
+/// makes programs slower, never faster. Nights that lie far from their neighbours on both sides
+/// (six robust standard deviations from the median of five) are left out, and a change takes five
+/// nights: fewer bad ones are none. E-divisive means with Student's t propose changes, with the
+/// errors that correlated nights have, at `change_level`; one is reported where the distributions
+/// of up to twenty nights on each side differ too (energy distance, whole nights permuted, p ≤
+/// 0.01), to the same side. Less than ten nights show nothing. Where several steps, or one, fit
+/// worse than a ramp over five nights or more (BIC), it is one drift.
 ///
 /// To keep the stated rate, all of a number's nights are given each time, or always those from the
 /// same night on; what has been reported before is reported again.
