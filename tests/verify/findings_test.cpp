@@ -54,6 +54,8 @@ std::string kind_word(CauseKind kind) { return std::string(to_string(kind)) + ":
 TEST(Findings, StateThatIsKeptIsFound) {
   OneView v(Domain::unit_square());
   EXPECT_FALSE(find_stale_state(v.evidence));
+  v.pair.pdf = [](const Vec3&) { return std::numeric_limits<double>::infinity(); };
+  EXPECT_FALSE(find_stale_state(v.evidence)) << "twice the same";
   v.pair.pdf = [calls = 0](const Vec3&) mutable { return ++calls > 64 ? 2.0 : 1.0; };
   EXPECT_EQ(words_of(find_stale_state(v.evidence)),
             kind_word(CauseKind::stale_state) +
@@ -132,7 +134,7 @@ TEST(Findings, WhatIsNotFiniteIsFound) {
             std::string::npos);
 }
 
-/// One in twenty of 512.
+/// One in two hundred of 4,096.
 TEST(Findings, ManyPointsThatAreNotFiniteAreFound) {
   const auto found = [](int bad_of_512) {
     OneView v(Domain::unit_square());
@@ -141,23 +143,28 @@ TEST(Findings, ManyPointsThatAreNotFiniteAreFound) {
     };
     return words_of(find_points_not_finite(v.evidence));
   };
-  EXPECT_EQ(found(25), "");
-  EXPECT_EQ(found(26),
-            kind_word(CauseKind::not_finite) + "5 % of the sampled points are not finite");
+  EXPECT_EQ(found(2), "");
+  EXPECT_EQ(found(3),
+            kind_word(CauseKind::not_finite) + "0.6 % of the sampled points are not finite");
   EXPECT_EQ(found(128),
             kind_word(CauseKind::not_finite) + "25 % of the sampled points are not finite");
 }
 
-/// Looked for at the middles of 48 × 48 cells; two thousandths of them are 4.6.
-TEST(Findings, NegativeDensitiesAreFound) {
+/// Looked for at the middles of 48 × 48 cells; two thousandths of them are 4.6, a hundredth 23.
+TEST(Findings, NegativeDensitiesAndThoseThatAreNoNumbersAreFound) {
   const auto found = [](int cells, double value) {
     OneView v(Domain::unit_square());
     v.pair.pdf = [=](const Vec3& x) { return x[1] < 1 / 48.0 && x[0] < cells / 48.0 ? value : 1; };
-    return words_of(find_negative_density(v.evidence));
+    return words_of(find_bad_density(v.evidence));
   };
   EXPECT_EQ(found(4, -1), "");
   EXPECT_EQ(found(5, -1), kind_word(CauseKind::not_finite) +
                               "pdf() is negative, down to -1, in 0.2 % of the domain");
+  EXPECT_EQ(found(23, kNotANumber), "");
+  EXPECT_EQ(found(24, kNotANumber),
+            kind_word(CauseKind::not_finite) + "pdf() is nan in 1 % of the domain");
+  EXPECT_EQ(found(48, std::numeric_limits<double>::infinity()),
+            kind_word(CauseKind::not_finite) + "pdf() is inf in 2.1 % of the domain");
   EXPECT_EQ(found(48, -0.5e-6), "") << "rounding";
   EXPECT_NE(found(48, -2e-6), "");
 }

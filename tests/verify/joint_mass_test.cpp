@@ -61,7 +61,7 @@ TEST(CubeTree, HoldsAsManyPilotPointsInEachBin) {
     p = {random.uniform(), 0, 0, 0.5};
     p[1] = p[0] * random.uniform(), p[2] = std::pow(random.uniform(), 3);
   }
-  const CubeTree tree(points, 8, 3);
+  const CubeTree tree(points, 8, 3, 0x1p-53);
   std::vector<int> counts(tree.bins());
   double volume = 0;
   for (const CubePoint& p : points) ++counts[tree.locate(p)];
@@ -103,7 +103,7 @@ CubeMass mass_of(const Ramps& ramps, std::uint64_t seed, std::uint64_t evaluatio
   question.max_evaluations = evaluations;
   question.seed = seed;
   std::vector<CubePoint> points = question.pilot;
-  const CubeTree tree(points, depth, ramps.dimension);
+  const CubeTree tree(points, depth, ramps.dimension, 0x1p-53);
   return integrate_cube(question, tree, ramps.dimension);
 }
 
@@ -191,7 +191,7 @@ TEST(CubeMass, SaysWhereItRestsOnOwnSamples) {
   question.pilots_drawn = 4096;
   question.max_evaluations = 200'000;
   std::vector<CubePoint> points = question.pilot;
-  const CubeMass mass = integrate_cube(question, CubeTree(points, 6, 4), 4);
+  const CubeMass mass = integrate_cube(question, CubeTree(points, 6, 4, 0x1p-53), 4);
   EXPECT_GT(mass.rests_on_own, 0.9);
   EXPECT_LT(std::abs(mass.integral.total - 1), mass.integral.error(1e-10));
 }

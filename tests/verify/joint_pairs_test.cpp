@@ -265,6 +265,22 @@ TEST(JointPairs, SkipsTheJacobianOfAMixtureThatIsRight) {
   EXPECT_EQ(report.verdict(), Verdict::pass);
 }
 
+TEST(JointPairs, FailsWhereOneCoordinateIsClamped) {
+  // The bin that holds 0.9 and all above has the right mass.
+  const auto clamped = [](double most) {
+    return joint_pair<3, double, double, double>(
+        "clamped", JointDomain::box({{0, 1}, {0, 1}, {0, 1}}),
+        [most](const std::array<double, 3>& u) {
+          return std::tuple(u[0], std::min(u[1], most), u[2]);
+        },
+        [](double, double, double) { return 1.0; });
+  };
+  EXPECT_EQ(check_chi_square(clamped(1), joint_options("not clamped")).verdict, Verdict::pass);
+  for (const double most : {0.9, 0.998}) {
+    EXPECT_EQ(check_chi_square(clamped(most), joint_options("clamped")).verdict, Verdict::fail);
+  }
+}
+
 TEST(JointPairs, AnswersTheSameInSpans) {
   const JointPair one = joint_pairs::flight_and_phase();
   JointPair many = one;

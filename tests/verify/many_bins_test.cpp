@@ -18,7 +18,7 @@ TEST(BinTree, FindsManyPointsAsItFindsOne) {
     std::vector<Point2> points(1000);
     for (Point2& p : points) p = {random.uniform() * random.uniform(), random.uniform()};
     std::vector<Point2> pilot = points;
-    const BinTree tree(pilot, 7, dimension);
+    const BinTree tree(pilot, 7, dimension, 0x1p-53);
     points.push_back({0, 0});
     points.push_back({1, 1});
     std::vector<std::size_t> bins(points.size());

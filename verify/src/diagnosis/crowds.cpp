@@ -96,30 +96,41 @@ std::optional<Finding> find_samples_near_a_line(const ReportEvidence& evidence) 
   return std::nullopt;
 }
 
-std::optional<Finding> find_negative_density(const ReportEvidence& evidence) {
+std::optional<Finding> find_bad_density(const ReportEvidence& evidence) {
   constexpr int kPerSide = 48;
   constexpr double kGoodPart = 2e-3;
+  // Where it is not a number it may be for what is wrong elsewhere too.
+  constexpr double kLargePart = 1e-2;
+  constexpr double kPoints = kPerSide * kPerSide;
   for (const ViewEvidence* v : views_to_ask(evidence)) {
     if (!v->failed || v->pair->domain.dimension() == 0) continue;
     const Chart& chart = v->pair->domain.chart();
-    double negative = 0, least = 0, most = 0;
+    double negative = 0, least = 0, most = 0, none = 0, example = 0;
     std::vector<Vec3> points;
     for (int i = 0; i < kPerSide * kPerSide; ++i) {
       const int column = i % kPerSide, row = i / kPerSide;
       points.push_back(chart.from_square({(column + 0.5) / kPerSide, (row + 0.5) / kPerSide}));
     }
     for (const double pdf : pdfs_at(*v, points)) {
-      if (!std::isfinite(pdf)) continue;
+      if (!std::isfinite(pdf)) {
+        ++none;
+        example = pdf;
+        continue;
+      }
       negative += pdf < 0 ? 1 : 0;
       least = std::min(least, pdf);
       most = std::max(most, pdf);
     }
+    const auto percent = [](double count) {
+      return number(std::round(1e3 * count / kPoints) / 10) + " % of the domain";
+    };
+    if (none > kLargePart * kPoints) {
+      return Finding{CauseKind::not_finite, "pdf() is " + number(example) + " in " + percent(none)};
+    }
     constexpr double kRounding = 1e-6;
-    if (negative > kGoodPart * kPerSide * kPerSide && -least > kRounding * most) {
+    if (negative > kGoodPart * kPoints && -least > kRounding * most) {
       return Finding{CauseKind::not_finite,
-                     "pdf() is negative, down to " + number(least) + ", in " +
-                         number(std::round(1e3 * negative / (kPerSide * kPerSide)) / 10) +
-                         " % of the domain"};
+                     "pdf() is negative, down to " + number(least) + ", in " + percent(negative)};
     }
   }
   return std::nullopt;

@@ -61,7 +61,7 @@ class Diagnosis {
     if (const auto f = find_points_not_finite(evidence_)) return named(*f);
     if (const auto f = find_samples_on_a_line(evidence_)) return named(*f);
     if (const auto f = find_samples_near_a_line(evidence_)) return named(*f);
-    if (const auto f = find_negative_density(evidence_)) return named(*f);
+    if (const auto f = find_bad_density(evidence_)) return named(*f);
     Cause cause = of_the_rest();
     if (const auto f = find_not_finite(evidence_)) {
       // A number that is none may follow from what was named, or be all there is.

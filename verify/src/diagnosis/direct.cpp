@@ -17,7 +17,7 @@ namespace plumbline::verify {
 namespace {
 
 bool differ(double a, double b, double epsilon) {
-  if (std::isnan(a) && std::isnan(b)) return false;
+  if (a == b || (std::isnan(a) && std::isnan(b))) return false;
   return !(std::abs(a - b) <= 64 * epsilon * std::max(std::abs(a), std::abs(b)));
 }
 
@@ -219,10 +219,12 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
       share = std::max(share, c.largest);
       where += (where.empty() ? "" : ", ") + std::string(names[i]) + " = " + number(c.value);
     }
-    if (few > 0 && few == varying) {
+    if (few > 0) {
       return Finding{CauseKind::on_a_line,
-                     "samples lie in single points, with " + number(std::uint64_t(points)) +
-                         " different coordinates in " + number(std::uint64_t(kSamples)) +
+                     std::string(few == varying ? "samples lie in single points, with "
+                                                : "samples lie on lines, with ") +
+                         number(std::uint64_t(points)) + " different coordinates in " +
+                         number(std::uint64_t(kSamples)) +
                          " samples: the place within a cell is not drawn"};
     }
     if (crowded == 0) continue;
@@ -310,8 +312,8 @@ std::optional<Finding> find_not_finite(const ReportEvidence& evidence) {
 }
 
 std::optional<Finding> find_points_not_finite(const ReportEvidence& evidence) {
-  constexpr std::size_t kSamples = 512;
-  constexpr double kMany = 0.05;
+  constexpr std::size_t kSamples = 4096;
+  constexpr double kMany = 0.005;
   for (const ViewEvidence& v : evidence.views) {
     if (!v.failed) continue;
     Random random = random_for(Stream::asked);
@@ -320,7 +322,7 @@ std::optional<Finding> find_points_not_finite(const ReportEvidence& evidence) {
       bad += s && !is_finite(s->x) ? 1 : 0;
     }
     if (bad > kMany * double{kSamples}) {
-      return Finding{CauseKind::not_finite, number(std::round(100 * bad / double{kSamples})) +
+      return Finding{CauseKind::not_finite, number(std::round(1000 * bad / double{kSamples}) / 10) +
                                                 " % of the sampled points are not finite"};
     }
   }

@@ -25,8 +25,8 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence);
 /// or clamped and normalised again.
 std::optional<Finding> find_samples_near_a_line(const ReportEvidence& evidence);
 
-/// A density that is negative in a good part of the domain.
-std::optional<Finding> find_negative_density(const ReportEvidence& evidence);
+/// A density that is negative or not a number in a good part of the domain.
+std::optional<Finding> find_bad_density(const ReportEvidence& evidence);
 
 /// Records of atoms that state a density; nothing but atoms beside a density.
 std::optional<Finding> find_atoms_with_density(const ReportEvidence& evidence);
@@ -40,7 +40,7 @@ std::optional<Finding> find_rounded_cap(const ReportEvidence& evidence);
 /// NaN, infinity or a negative density.
 std::optional<Finding> find_not_finite(const ReportEvidence& evidence);
 
-/// Sampled points that are NaN or infinite in so many samples that nothing else can be said.
+/// Sampled points that are NaN or infinite, in one of two hundred samples or more.
 std::optional<Finding> find_points_not_finite(const ReportEvidence& evidence);
 
 /// What the numerator of a ratio depends on, judged by samples that lie next to each other.

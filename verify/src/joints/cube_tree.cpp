@@ -1,12 +1,13 @@
 #include "joints/cube_tree.h"
 
-#include <algorithm>
+#include "tree_cut.h"
 
 namespace plumbline::verify {
 
-CubeTree::CubeTree(std::span<CubePoint> points, int depth, std::size_t dimension)
+CubeTree::CubeTree(std::span<CubePoint> points, int depth, std::size_t dimension, double resolution)
     : depth_(depth),
       dimension_(dimension),
+      resolution_(resolution),
       splits_(std::size_t{1} << depth),
       boxes_(std::size_t{1} << depth) {
   build(points, 1, 0, CubeBox{});
@@ -18,19 +19,12 @@ void CubeTree::build(std::span<CubePoint> points, std::size_t node, int level, c
     return;
   }
   const std::size_t d = static_cast<std::size_t>(level) % dimension_;
-  const std::size_t middle = points.size() / 2;
-  double split = (box.low[d] + box.high[d]) / 2;
-  if (!points.empty()) {
-    std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(middle),
-                     points.end(),
-                     [d](const CubePoint& a, const CubePoint& b) { return a[d] < b[d]; });
-    split = points[middle][d];
-  }
-  splits_[node] = split;
+  const TreeCut cut = cut_at_median(points, d, box.low[d], box.high[d], resolution_, node);
+  splits_[node] = cut.split;
   CubeBox low = box, high = box;
-  low.high[d] = high.low[d] = split;
-  build(points.first(middle), 2 * node, level + 1, low);
-  build(points.subspan(middle), 2 * node + 1, level + 1, high);
+  low.high[d] = high.low[d] = cut.split;
+  build(points.first(cut.middle), 2 * node, level + 1, low);
+  build(points.subspan(cut.middle), 2 * node + 1, level + 1, high);
 }
 
 std::size_t CubeTree::locate(const CubePoint& p) const {

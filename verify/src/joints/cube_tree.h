@@ -14,7 +14,8 @@ class CubeTree {
  public:
   /// @param points  pilot samples; reordered
   /// @param depth   2^depth finest bins
-  CubeTree(std::span<CubePoint> points, int depth, std::size_t dimension);
+  /// @param resolution  rounding unit of the points
+  CubeTree(std::span<CubePoint> points, int depth, std::size_t dimension, double resolution);
 
   std::size_t bins() const { return boxes_.size(); }
 
@@ -28,6 +29,7 @@ class CubeTree {
 
   int depth_;
   std::size_t dimension_;
+  double resolution_;
   std::vector<double> splits_;  // heap order, root at 1
   std::vector<CubeBox> boxes_;
 };

@@ -77,6 +77,9 @@ class JointBins {
   /// By how much, relative and on average, rounding of the point changes the density.
   double rounding() const { return rounding_; }
 
+  /// Share of the pilot samples that have a coordinate of the cube in common with many others.
+  double on_lines() const { return on_lines_; }
+
   /// Middle of a bin of a depth, in the domain.
   JointPoint center(int depth, std::size_t bin) const;
 
@@ -91,7 +94,7 @@ class JointBins {
   Cube cube_;
   Random random_;
   int depth_;
-  double rounding_ = 0;
+  double rounding_ = 0, on_lines_ = 0;
   std::optional<CubeTree> tree_;
   CubeMass expected_;
   JointCounts counts_;

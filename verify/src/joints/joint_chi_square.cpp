@@ -135,6 +135,10 @@ class JointLook {
            number(table.observed[test.worst_bin]) + " samples, expected " +
            number(table.expected[test.worst_bin]));
     }
+    if (bins_.on_lines() > 0) {
+      fail("at least " + number(std::round(1e4 * bins_.on_lines()) / 100) +
+           " % of the samples have a coordinate in common with many others");
+    }
     if (r.verdict == Verdict::fail) return;
     const double on_own = bins_.expected().rests_on_own;
     if (on_own > kMostOnOwnSamples) {

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "tree_cut.h"
+
 namespace plumbline::verify {
 
 namespace {
@@ -24,34 +26,27 @@ std::vector<double> pieces(double low, double high, const std::vector<double>& b
 
 }  // namespace
 
-BinTree::BinTree(std::vector<Point2>& points, int depth, int dimension)
+BinTree::BinTree(std::span<Point2> points, int depth, int dimension, double resolution)
     : depth_(depth),
       dimension_(dimension),
+      resolution_(resolution),
       splits_(std::size_t{1} << depth),
       boxes_(std::size_t{1} << depth) {
-  build(points, 0, points.size(), 1, 0, Box{});
+  build(points, 1, 0, Box{});
 }
 
-void BinTree::build(std::vector<Point2>& points, std::size_t first, std::size_t last,
-                    std::size_t node, int level, const Box& box) {
+void BinTree::build(std::span<Point2> points, std::size_t node, int level, const Box& box) {
   if (level == depth_) {
     boxes_[node - bins()] = box;
     return;
   }
   const std::size_t d = cut_dimension(level);
-  const std::size_t middle = first + (last - first) / 2;
-  double split = (box.low[d] + box.high[d]) / 2;
-  if (first < last) {
-    const auto at = [&](std::size_t i) { return points.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(first), at(middle), at(last),
-                     [d](const Point2& a, const Point2& b) { return a[d] < b[d]; });
-    split = points[middle][d];
-  }
-  splits_[node] = split;
+  const TreeCut cut = cut_at_median(points, d, box.low[d], box.high[d], resolution_, node);
+  splits_[node] = cut.split;
   Box low = box, high = box;
-  low.high[d] = high.low[d] = split;
-  build(points, first, middle, 2 * node, level + 1, low);
-  build(points, middle, last, 2 * node + 1, level + 1, high);
+  low.high[d] = high.low[d] = cut.split;
+  build(points.first(cut.middle), 2 * node, level + 1, low);
+  build(points.subspan(cut.middle), 2 * node + 1, level + 1, high);
 }
 
 void BinTree::locate(std::span<const Point2> points, std::span<std::size_t> bins) const {

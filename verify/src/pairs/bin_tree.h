@@ -10,13 +10,15 @@ namespace plumbline::verify {
 
 /// Bins of the unit square that follow a density: halved again and again at the median of pilot
 /// points, alternating between the two dimensions. All nodes of one depth are bins of about equal
-/// mass. Points in one place, or on a line, leave bins without area between them.
+/// mass. Points in one place, or on a line, leave bins without area between them, or are cut off
+/// from what lies beside them (`cut_at_median`).
 class BinTree {
  public:
   /// @param points  pilot samples; reordered
   /// @param depth   2^depth finest bins
   /// @param dimension  1: only the first coordinate is cut
-  BinTree(std::vector<Point2>& points, int depth, int dimension);
+  /// @param resolution  rounding unit of the points
+  BinTree(std::span<Point2> points, int depth, int dimension, double resolution);
 
   int depth() const { return depth_; }
   std::size_t bins() const { return std::size_t{1} << depth_; }
@@ -44,9 +46,9 @@ class BinTree {
   std::size_t cut_dimension(int level) const {
     return dimension_ == 1 ? 0 : static_cast<std::size_t>(level & 1);
   }
-  void build(std::vector<Point2>& points, std::size_t first, std::size_t last, std::size_t node,
-             int level, const Box& box);
+  void build(std::span<Point2> points, std::size_t node, int level, const Box& box);
   int depth_, dimension_;
+  double resolution_;
   std::vector<double> splits_;  // heap order, root at 1
   std::vector<Box> boxes_;
 };

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pairs/batches.h"
+#include "pairs/lines.h"
 #include "streams.h"
 
 namespace plumbline::verify {
@@ -28,8 +30,6 @@ constexpr double kMassErrorPerDeviation = 0.008;
 // What is good enough where that is out of reach, at most a quarter of the promise that is made
 // then.
 constexpr double kLooseMassErrors = 5, kLooseMassError = 2.5e-4;
-// A bin as narrow as that around a sixteenth of its depth's share of the samples is a line.
-constexpr double kLine = 1e-11;
 // Samples in float lie on a lattice as wide as the last digits of what they are computed from: the
 // result is rounded once, and a normal or an angle before, which the sample moves twice as far as.
 // Of lines that a distance s lie apart a width w holds w/s on average, and by where it begins one
@@ -156,22 +156,18 @@ void BinnedPair::integrate_density(const ContractOptions& options, double mass_e
   Random random = random_for(options.seed, Stream::pilot);
   const std::size_t own = draws_for(pair_, std::max(kPilotsPerBin << depth_, kLeastPilots), random);
   std::vector<Point2> pilot = draw_own(pair_, own, random);
-  tree_.emplace(pilot, depth_, pair_.domain.dimension());
-  measure_lines(pilot.size());
+  tree_.emplace(pilot, depth_, pair_.domain.dimension(), pair_.epsilon);
+  measure_lines(pilot);
   expected_ = integrate_over(*tree_, pair_, {}, own, options, mass_error);
 }
 
-void BinnedPair::measure_lines(std::size_t pilots) {
-  // Every bin was given as many of the pilot samples, equal ones to both sides of a cut.
-  if (pilots < tree_->bins()) return;
-  std::size_t narrow = 0;
-  for (std::size_t bin = 0; bin < tree_->bins(); ++bin) {
-    const Box& box = tree_->box(bin);
-    const bool first = box.high[0] - box.low[0] < kLine;
-    const bool second = pair_.domain.dimension() == 2 && box.high[1] - box.low[1] < kLine;
-    if (first || second) ++narrow;
+void BinnedPair::measure_lines(const std::vector<Point2>& pilot) {
+  for (int d = 0; d < pair_.domain.dimension(); ++d) {
+    std::vector<double> values;
+    values.reserve(pilot.size());
+    for (const Point2& p : pilot) values.push_back(p[static_cast<std::size_t>(d)]);
+    on_lines_ = std::max(on_lines_, shared_values(std::move(values), pair_.epsilon).share);
   }
-  on_lines_ = static_cast<double>(narrow) / static_cast<double>(tree_->bins());
 }
 
 MassIntegral integrate_over_domain(const SamplingPair& pair, const Many<double(Vec3)>& function,
@@ -182,7 +178,7 @@ MassIntegral integrate_over_domain(const SamplingPair& pair, const Many<double(V
   Random random = random_for(options.seed, Stream::energy_pilot);
   const std::size_t own = draws_for(pair, kOwn, random);
   std::vector<Point2> pilot = draw_own(pair, own, random);
-  const BinTree tree(pilot, kDepth, pair.domain.dimension());
+  const BinTree tree(pilot, kDepth, pair.domain.dimension(), pair.epsilon);
   return integrate_over(tree, pair, function, own, options, error);
 }
 

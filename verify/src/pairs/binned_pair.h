@@ -88,8 +88,8 @@ class BinnedPair {
   /// Middle of a bin of a depth, in the domain.
   Vec3 center(int depth, std::size_t bin) const;
 
-  /// Share of the pilot samples that fell into bins so narrow that they lie on a line or in a
-  /// point.
+  /// Share of the pilot samples that lie on lines along which a coordinate of the square is the
+  /// same, or in a point.
   double on_lines() const { return on_lines_; }
 
  private:
@@ -97,7 +97,7 @@ class BinnedPair {
   void tabulate_discrete();
   void measure_rounding(std::uint64_t seed);
   void measure_lattice();
-  void measure_lines(std::size_t pilots);
+  void measure_lines(const std::vector<Point2>& pilot);
   void count_atom(const SampleRecord& sample);
   void count(std::span<const std::optional<SampleRecord>> samples);
   bool inside(const Vec3& x) const;

@@ -235,10 +235,10 @@ void ChiSquareLook::judge(CheckResult& r) const {
          place(pair_.center(worst().depth, worst().worst_bin)) + " holds " +
          number(table.observed[worst().worst_bin]) + " samples, expected " +
          number(table.expected[worst().worst_bin]));
-    if (pair_.on_lines() > 0) {
-      fail("at least " + number(std::round(1e4 * pair_.on_lines()) / 100) +
-           " % of the samples lie on a line or in a point");
-    }
+  }
+  if (pair_.on_lines() > 0) {
+    fail("at least " + number(std::round(1e4 * pair_.on_lines()) / 100) +
+         " % of the samples lie on a line or in a point");
   }
   if (!(atoms_p_ >= level_)) {
     const AtomCount& a = counts.atoms[worst_atom_];

@@ -30,7 +30,7 @@ double middle_of(const Box& box, std::size_t d) { return (box.low[d] + box.high[
 Regions::Regions(const Domain& domain, const std::vector<Vec3>& pilot, int depth)
     : domain_(domain),
       pilot_(in_square(domain, pilot)),
-      tree_(pilot_, kFineDepth, domain.dimension()),
+      tree_(pilot_, kFineDepth, domain.dimension(), 0x1p-53),
       depth_(std::min(depth, kFineDepth)),
       first_piece_(tree_.bins() + 1) {
   for (const Cell& cell : tree_.cells(domain.breaks())) {
