@@ -109,6 +109,39 @@ TEST_F(Resumed, StopsAtTheSameErrorAsARenderThatNeverStopped) {
   EXPECT_LT(whole.samples_per_pixel, 1024u);
 }
 
+/// Pixels that have more samples than a look had, as where a slice was cut, are no look.
+TEST_F(Resumed, BetweenTwoLooksAtTheErrorDoesNotLookAgain) {
+  options_.samples_per_pixel = 9;
+  RenderState at_8, at_9;
+  RenderOptions kept = options_;
+  kept.interruptions.slice = 0;  // one sample of each pixel at a time
+  kept.interruptions.keep = [&](const RenderState& state, bool) {
+    if (state.least_drawn() == 8) at_8 = state;
+    if (state.least_drawn() == 9) at_9 = state;
+  };
+  render(shallow_, kept);
+  RenderState between = at_8;
+  for (std::size_t i = 0; i < between.drawn.size(); ++i) {
+    // Each pixel whose own error fell: what is there seems better than it was at the look.
+    const auto error = [i](const RenderState& state) {
+      const PixelMoments& pixel = state.film.pixels()[i];
+      const double mean = luminance(pixel.mean);
+      return luminance(pixel.variance()) / pixel.count / (mean * mean + 0.01);
+    };
+    if (!(error(at_9) < error(at_8))) continue;
+    between.drawn[i] = 9;
+    between.film.pixels()[i] = at_9.film.pixels()[i];
+  }
+  const double limit = (at_8.film.relative_error() + between.film.relative_error()) / 2;
+  ASSERT_LT(between.film.relative_error(), limit);
+  options_.samples_per_pixel = 16;
+  options_.relative_error = limit;
+  EXPECT_FALSE(is_good_enough(at_8, options_));
+  EXPECT_FALSE(is_good_enough(between, options_));
+  options_.interruptions.from = std::make_shared<const RenderState>(between);
+  EXPECT_EQ(render(shallow_, options_).samples_per_pixel, 16u);
+}
+
 TEST_F(Resumed, WithAnAllocationIsTheSameBitForBit) {
   options_.path.max_depth = 2;
   options_.allocation.emplace();

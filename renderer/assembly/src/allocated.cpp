@@ -14,28 +14,6 @@
 namespace plumbline::renderer {
 namespace {
 
-void check_allocation(const RenderOptions& options) {
-  const AllocationOptions& allocation = *options.allocation;
-  if (options.path.max_depth != 2) {
-    throw InputError("sample allocation works on direct light only: set the maximum depth to 2");
-  }
-  if (options.sampler != SamplerType::independent) {
-    throw InputError("sample allocation works with the independent sampler only");
-  }
-  if (options.seconds > 0 || options.relative_error > 0) {
-    throw InputError("sample allocation needs a sample count, not a limit on time or error");
-  }
-  if (allocation.iterations < 1 || options.samples_per_pixel / 2 < allocation.iterations) {
-    throw InputError("sample allocation needs two samples per pixel in every iteration");
-  }
-  if (!(allocation.limit > 0 && allocation.limit <= 0.5)) {
-    throw InputError("the limit of the sample allocation must lie in (0, 0.5]");
-  }
-  if (!(allocation.cost_ratio > 0 && std::isfinite(allocation.cost_ratio))) {
-    throw InputError("the cost ratio of the sample allocation must be positive");
-  }
-}
-
 void allocate_pixel(const Scene& scene, const RenderOptions& options, int x, int y,
                     RenderState& state, PathCounters& counters) {
   const std::size_t index = state.film.index(x, y);
@@ -62,6 +40,28 @@ void allocate_pixel(const Scene& scene, const RenderOptions& options, int x, int
 
 }  // namespace
 
+void check_allocation(const RenderOptions& options) {
+  const AllocationOptions& allocation = *options.allocation;
+  if (options.path.max_depth != 2) {
+    throw InputError("sample allocation works on direct light only: set the maximum depth to 2");
+  }
+  if (options.sampler != SamplerType::independent) {
+    throw InputError("sample allocation works with the independent sampler only");
+  }
+  if (options.seconds > 0 || options.relative_error > 0) {
+    throw InputError("sample allocation needs a sample count, not a limit on time or error");
+  }
+  if (allocation.iterations < 1 || options.samples_per_pixel / 2 < allocation.iterations) {
+    throw InputError("sample allocation needs two samples per pixel in every iteration");
+  }
+  if (!(allocation.limit > 0 && allocation.limit <= 0.5)) {
+    throw InputError("the limit of the sample allocation must lie in (0, 0.5]");
+  }
+  if (!(allocation.cost_ratio > 0 && std::isfinite(allocation.cost_ratio))) {
+    throw InputError("the cost ratio of the sample allocation must be positive");
+  }
+}
+
 std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterations) {
   const std::uint64_t samples = result.samples_per_pixel;
   const std::uint64_t before_last = samples * (iterations - 1) / iterations;
@@ -75,7 +75,6 @@ std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterat
 }
 
 RenderResult render_allocated(const Scene& scene, const RenderOptions& options) {
-  check_allocation(options);
   const Camera& camera = scene.camera();
   RenderState state = options.interruptions.from
                           ? *options.interruptions.from

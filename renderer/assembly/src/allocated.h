@@ -4,6 +4,9 @@
 
 namespace plumbline::renderer {
 
+/// @throws InputError for other options that do not fit an allocation
+void check_allocation(const RenderOptions& options);
+
 /// `render` with an allocation.
 RenderResult render_allocated(const Scene& scene, const RenderOptions& options);
 

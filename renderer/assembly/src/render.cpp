@@ -26,12 +26,18 @@ SamplerFactory pixel_samplers(const Scene& scene, const RenderOptions& options) 
   };
 }
 
-RenderResult render(const Scene& scene, const RenderOptions& options) {
+void require_renderable(const RenderOptions& options) {
   if (options.path.max_depth < 0 && options.path.rr_depth == kNoRoulette) {
     throw InputError(
         "paths of unlimited depth without Russian roulette may never end: set a maximum depth or a "
         "roulette depth");
   }
+  require_known_error(options);
+  if (options.allocation) check_allocation(options);
+}
+
+RenderResult render(const Scene& scene, const RenderOptions& options) {
+  require_renderable(options);
   if (options.allocation) return render_allocated(scene, options);
   return {run_render_loop(scene.camera(), options, pixel_samplers(scene, options)), {}};
 }

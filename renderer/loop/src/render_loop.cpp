@@ -53,8 +53,8 @@ class RenderLoop {
   LoopResult run() {
     std::uint32_t done = drawn();
     bool stopped = false;
-    while (!stopped && done < options_.samples_per_pixel && !is_good_enough(done)) {
-      const std::uint32_t target = next_look(done);
+    while (!stopped && done < options_.samples_per_pixel && !is_good_enough(state_, options_)) {
+      const std::uint32_t target = next_look_in_time(done);
       if (target == done) break;
       stopped = !render_up_to(target);
       done = drawn();
@@ -86,23 +86,13 @@ class RenderLoop {
     if (options_.interruptions.keep) options_.interruptions.keep(state_, is_last);
   }
 
-  /// The error is looked at after 2, 4, 8, … samples, however they came about.
-  bool is_good_enough(std::uint32_t done) const {
-    return options_.relative_error > 0 && done > 1 && std::has_single_bit(done) &&
-           state_.film.relative_error() <= options_.relative_error;
-  }
-
-  /// Samples per pixel at which the limits are looked at next: all without a limit to look at, else
-  /// the next power of two, or what the time that is left is enough for. `done` ends the render.
-  std::uint32_t next_look(std::uint32_t done) const {
-    const std::uint32_t all = options_.samples_per_pixel;
-    if (!(options_.seconds > 0) && !(options_.relative_error > 0)) return all;
-    if (done == 0) return 1;
-    double samples = std::min(std::bit_ceil(done + 1), all) - done;
-    if (options_.seconds > 0) {
-      const double so_far = seconds();
-      samples = std::min(samples, (options_.seconds - so_far) / so_far * done);
-    }
+  /// No further than what the time that is left is enough for. `done` ends the render.
+  std::uint32_t next_look_in_time(std::uint32_t done) const {
+    const std::uint32_t look = next_look(done, options_);
+    if (!(options_.seconds > 0) || done == 0) return look;
+    const double so_far = seconds();
+    const double left = (options_.seconds - so_far) / so_far * done;
+    const double samples = std::min<double>(look - done, left);
     return samples >= 1 ? done + static_cast<std::uint32_t>(samples) : done;
   }
 
@@ -171,6 +161,20 @@ class RenderLoop {
 
 }  // namespace
 
+std::uint32_t next_look(std::uint32_t done, const SamplingOptions& options) {
+  const std::uint32_t all = options.samples_per_pixel;
+  if (!(options.seconds > 0) && !(options.relative_error > 0)) return all;
+  return std::min(done == 0 ? 1 : std::bit_ceil(done + 1), all);
+}
+
+bool is_good_enough(const RenderState& state, const SamplingOptions& options) {
+  const std::uint32_t done = state.least_drawn();
+  if (!(options.relative_error > 0) || done < 2 || !std::has_single_bit(done)) return false;
+  const auto is_at_look = [done](std::uint32_t drawn) { return drawn == done; };
+  return std::all_of(state.drawn.begin(), state.drawn.end(), is_at_look) &&
+         state.film.relative_error() <= options.relative_error;
+}
+
 std::uint32_t RenderState::least_drawn() const {
   std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
   for (const std::uint32_t samples : drawn) least = std::min(least, samples);
@@ -207,12 +211,16 @@ std::unique_ptr<PixelSampler> make_scalar_sampler(const Scene& scene, const Path
   return std::make_unique<ScalarSampler>(scene, path, sampler, seed);
 }
 
-LoopResult run_render_loop(const Camera& camera, const SamplingOptions& options,
-                           const SamplerFactory& make_sampler) {
+void require_known_error(const SamplingOptions& options) {
   if (options.sampler == SamplerType::sobol && options.relative_error > 0 &&
       options.replicates < 2) {
     throw InputError("an error limit needs at least 2 replicates of Sobol points to see an error");
   }
+}
+
+LoopResult run_render_loop(const Camera& camera, const SamplingOptions& options,
+                           const SamplerFactory& make_sampler) {
+  require_known_error(options);
   return RenderLoop(camera, options, make_sampler).run();
 }
 

@@ -44,12 +44,15 @@ std::vector<float> final_shares(const RenderResult& result, std::uint32_t iterat
 /// @param scene, options  kept, not copied
 SamplerFactory pixel_samplers(const Scene& scene, const RenderOptions& options);
 
-/// Renders an image. The same scene, path options, seed and sample count give the same bits,
-/// whatever the number of threads or passes.
-///
 /// @throws InputError for an infinite path depth without Russian roulette, which may never end,
 ///         for an error limit on one replicate of Sobol points, whose error is not known, and for
 ///         an allocation that the other options do not fit
+void require_renderable(const RenderOptions& options);
+
+/// Renders an image. The same scene, path options, seed and sample count give the same bits,
+/// whatever the number of threads or passes.
+///
+/// @throws InputError for what `require_renderable` refuses
 RenderResult render(const Scene& scene, const RenderOptions& options);
 
 /// The state of a render that has not begun.

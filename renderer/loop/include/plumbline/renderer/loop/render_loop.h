@@ -34,6 +34,15 @@ struct SamplingOptions {
 /// The state of a render that has not begun.
 RenderState fresh_state(int width, int height, const SamplingOptions& options);
 
+/// Samples per pixel at which the limits of samples and error are looked at next: the next power of
+/// two, or all where no error is.
+/// @param done  samples of every pixel, fewer than all
+std::uint32_t next_look(std::uint32_t done, const SamplingOptions& options);
+
+/// Whether the error limit ends a render here. It is looked at after 2, 4, 8, … samples of every
+/// pixel, however they came about; where a pixel has more, that look is passed, and ended nothing.
+bool is_good_enough(const RenderState& state, const SamplingOptions& options);
+
 /// Draws samples of pixels; each thread has one of its own.
 class PixelSampler {
  public:
@@ -68,10 +77,13 @@ struct LoopResult {
 /// A tile holds at least so many samples, for samplers that work on many at once.
 inline constexpr std::size_t kSamplesPerTile = 2048;
 
+/// @throws InputError for an error limit on one replicate of Sobol points, whose error is not known
+void require_known_error(const SamplingOptions& options);
+
 /// Renders an image. The same samples give the same bits, whatever the number of threads or passes,
 /// and however often it was stopped and gone on with.
 ///
-/// @throws InputError for an error limit on one replicate of Sobol points, whose error is not known
+/// @throws InputError for what `require_known_error` refuses
 LoopResult run_render_loop(const Camera& camera, const SamplingOptions& options,
                            const SamplerFactory& make_sampler);
 
