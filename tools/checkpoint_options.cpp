@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <exception>
-#include <system_error>
 #include <utility>
 
 #include <plumbline/output/failure.h>
 #include <plumbline/output/stop.h>
 #include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/core/errors.h>
+
+#include "shard.h"
 
 namespace plumbline::tools {
 namespace {
@@ -22,29 +22,6 @@ bool fits(const renderer::RenderState& state, const renderer::RenderState& fresh
   return state.film.width() == fresh.film.width() && state.film.height() == fresh.film.height() &&
          state.replicates.size() == fresh.replicates.size() &&
          state.bsdf_counts.size() == fresh.bsdf_counts.size();
-}
-
-/// Whole pixels are dealt out, in turn: no net of points is ever cut, and no sum is split.
-struct Shard {
-  std::uint32_t number = 1, count = 1;
-
-  bool has(std::size_t pixel) const { return pixel % count == number - 1; }
-};
-
-Shard parse_shard(const std::string& text) {
-  Shard shard;
-  if (text.empty()) return shard;
-  const char* end = text.data() + text.size();
-  const auto number = std::from_chars(text.data(), end, shard.number);
-  if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
-    const auto count = std::from_chars(number.ptr + 1, end, shard.count);
-    if (count.ec == std::errc() && count.ptr == end && shard.number >= 1 &&
-        shard.number <= shard.count) {
-      return shard;
-    }
-  }
-  throw renderer::InputError(
-      fmt::format("--shard {}: must read I/N, the part I from 1 to N of N", text));
 }
 
 bool is_of(const renderer::RenderState& state, const Shard& shard) {
@@ -139,9 +116,7 @@ void Checkpoints::attach(const renderer::SceneDescription& scene,
   const auto state = std::make_shared<renderer::RenderState>(
       fresh_state(scene.camera.width, scene.camera.height, options));
   if (arguments_.resume.empty()) {
-    for (std::size_t i = 0; i < state->drawn.size(); ++i) {
-      if (!shard.has(i)) state->drawn[i] = output::kElsewhere;
-    }
+    keep_only(shard, *state);
   } else {
     output::Checkpoint checkpoint = output::read_checkpoint(arguments_.resume);
     output::require_same(arguments_.resume, checkpoint.settings, settings_);

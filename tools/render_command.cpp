@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include <plumbline/mpi/ranks.h>
 #include <plumbline/output/failure.h>
 #include <plumbline/output/output_file.h>
 #include <plumbline/output/stop.h>
 #include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/assembly/render.h>
-#include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
 #include <plumbline/reports/render_record.h>
@@ -25,80 +26,14 @@
 #include "checkpoint_options.h"
 #include "command.h"
 #include "progress.h"
+#include "render_arguments.h"
+#include "render_by_ranks.h"
 #include "render_numbers.h"
 #include "render_values.h"
 #include "scene_argument.h"
 
 namespace plumbline::tools {
 namespace {
-
-constexpr std::uint32_t kMaxSamples = 1u << 31;
-
-struct RenderArguments {
-  std::string scene;
-  std::string output;
-  std::string json;
-  renderer::RenderOptions options;  ///< those that need nothing of the scene and of each other
-  std::string counts;
-  std::optional<double> light_probability;
-  std::string roulette;
-  std::optional<std::uint32_t> replicates;
-  renderer::LightSelection light_selection = renderer::LightSelection::uniform;
-  AllocationArguments allocation;
-  CheckpointArguments checkpoint;
-  std::optional<std::uint32_t> samples;
-  std::optional<int> max_depth;
-  std::string size;
-  std::vector<std::string> definitions;
-};
-
-/// Options of one strategy that are given with another would be without effect.
-void require_strategy(const RenderArguments& arguments, renderer::Strategy strategy,
-                      const char* option) {
-  const renderer::Strategy given = arguments.options.path.strategy;
-  if (given == strategy) return;
-  throw renderer::InputError(
-      fmt::format("{} belongs to --strategy {}, not {}", option, name(strategy), name(given)));
-}
-
-/// Into how many scrambles the samples of a pixel are dealt out. Two would do for a variance, but
-/// one of a single degree of freedom.
-std::uint32_t replicates_of(const RenderArguments& arguments) {
-  if (arguments.options.sampler == renderer::SamplerType::sobol) {
-    return arguments.replicates.value_or(4);
-  }
-  if (arguments.replicates) {
-    throw renderer::InputError("--replicates belongs to --sampler sobol");
-  }
-  return 1;
-}
-
-renderer::RenderOptions render_options(const RenderArguments& arguments,
-                                       const renderer::SceneDescription& scene) {
-  renderer::RenderOptions options = arguments.options;
-  options.path.max_depth = arguments.max_depth.value_or(scene.integrator.max_depth);
-  options.path.rr_depth =
-      arguments.roulette.empty() ? scene.integrator.rr_depth : parse_roulette(arguments.roulette);
-  if (!arguments.counts.empty()) {
-    require_strategy(arguments, renderer::Strategy::mis, "--counts");
-    set_counts(arguments.counts, options.path);
-  }
-  if (arguments.light_probability) {
-    require_strategy(arguments, renderer::Strategy::one_sample, "--light-probability");
-    const double c = *arguments.light_probability;
-    if (!(c > 0 && c < 1)) {
-      throw renderer::InputError("--light-probability: must lie between 0 and 1, both excluded");
-    }
-    options.path.light_probability = static_cast<float>(c);
-  }
-  // A limit on time or error stands for the number of samples unless both are given.
-  const bool other_limit = options.seconds > 0 || options.relative_error > 0;
-  options.samples_per_pixel = arguments.samples.value_or(
-      other_limit ? kMaxSamples : static_cast<std::uint32_t>(scene.samples_per_pixel));
-  options.replicates = replicates_of(arguments);
-  set_allocation(arguments.allocation, arguments.samples.has_value(), options);
-  return options;
-}
 
 std::string counted(std::size_t count, const char* noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
@@ -222,146 +157,126 @@ int report_stop(const Checkpoints& checkpoints, const std::string& where) {
   return output::exit_code_of_signal(signal);
 }
 
-int run_render(const RenderArguments& arguments) {
-  output::Files files;
-  output::OutputFile& output = files.writes("--output", arguments.output);
-  output::OutputFile* json =
-      arguments.json.empty() ? nullptr : &files.writes("--json", arguments.json);
-  const ShareMap share_map(arguments.allocation, files);
-  Checkpoints checkpoints(arguments.checkpoint, files);
-  renderer::SceneDescription description =
-      load_scene(scene_path(arguments.scene), parse_definitions(arguments.definitions),
-                 parse_size(arguments.size));
-  for (const std::filesystem::path& file : description.files) files.reads(file);
-  description.light_selection = arguments.light_selection;
-  const renderer::Scene scene = renderer::make_scene(description);
-  renderer::RenderOptions options = render_options(arguments, description);
-  checkpoints.attach(description, options);
-  print_found(arguments, description, scene, options);
-  Progress progress(options.seconds, options.samples_per_pixel < kMaxSamples);
-  if (progress.shown()) options.progress = [&](double done) { progress.update(done); };
-  const output::StopRequests stops_at_signals;
-  const renderer::RenderResult result = render(scene, options);
-  if (!has_samples(result.film)) return report_stop(checkpoints, "before the first sample");
+/// The scene, and how it is to be rendered.
+struct Job {
+  explicit Job(const RenderArguments& arguments)
+      : description(described(arguments)),
+        scene(renderer::make_scene(description)),
+        options(render_options(arguments, description)) {}
 
-  reports::RenderRecord record = make_record(arguments, options, result);
-  if (!output.is_device()) record.image = arguments.output;
-  renderer::Image image = to_image(result.film);
-  image.metadata = metadata(record);
-  if (!arguments.checkpoint.shard.empty()) image.metadata["shard"] = arguments.checkpoint.shard;
-  if (result.stopped) image.metadata["stopped"] = stopped_at(options, result);
-  output.fill([&](const auto& path) { write_exr(path, image); });
-  if (!result.stopped) share_map.write(result);  // the shares of a pixel are those at its end
-  if (json) {
-    json->fill([&](const auto& path) { write_render_record(path, record, json->target()); });
+  static renderer::SceneDescription described(const RenderArguments& arguments) {
+    renderer::SceneDescription description =
+        load_scene(scene_path(arguments.scene), parse_definitions(arguments.definitions),
+                   parse_size(arguments.size));
+    description.light_selection = arguments.light_selection;
+    return description;
   }
-  files.finish();
-  print_done(arguments.output, record);
+
+  renderer::SceneDescription description;
+  renderer::Scene scene;
+  renderer::RenderOptions options;
+};
+
+/// All that a render writes.
+class Outputs {
+ public:
+  explicit Outputs(const RenderArguments& arguments)
+      : arguments_(arguments),
+        output_(files_.writes("--output", arguments.output)),
+        json_(arguments.json.empty() ? nullptr : &files_.writes("--json", arguments.json)),
+        share_map_(arguments.allocation, files_),
+        checkpoints_(arguments.checkpoint, files_) {}
+
+  /// To be called before the render.
+  void attach(Job& job) {
+    for (const std::filesystem::path& file : job.description.files) files_.reads(file);
+    checkpoints_.attach(job.description, job.options);
+  }
+
+  /// @return the exit code
+  int write(const Job& job, const renderer::RenderResult& result);
+
+ private:
+  void write_files(const Job& job, const renderer::RenderResult& result,
+                   reports::RenderRecord& record);
+
+  const RenderArguments& arguments_;
+  output::Files files_;
+  output::OutputFile& output_;
+  output::OutputFile* json_;
+  ShareMap share_map_;
+  Checkpoints checkpoints_;
+};
+
+int Outputs::write(const Job& job, const renderer::RenderResult& result) {
+  if (!has_samples(result.film)) return report_stop(checkpoints_, "before the first sample");
+  reports::RenderRecord record = make_record(arguments_, job.options, result);
+  write_files(job, result, record);
+  print_done(arguments_.output, record);
   std::fflush(stdout);  // before what goes to standard error
-  const bool usable = check_numbers(scene, options, result);
-  if (result.stopped) return report_stop(checkpoints, stopped_at(options, result));
+  const bool usable = check_numbers(job.scene, job.options, result);
+  if (result.stopped) return report_stop(checkpoints_, stopped_at(job.options, result));
   return usable ? kExitFine : kExitUnexpectedVerdict;
 }
 
-void add_options(options::Command& command, RenderArguments& arguments) {
-  command.add("scene", arguments.scene, "Scene file, or name of a known scene").required().type("");
-  command.add("-o,--output", arguments.output, "OpenEXR file to write").required().type("FILE");
-  command
-      .add_text(
-          "--strategy",
-          [&](const std::string& text) {
-            arguments.options.path.strategy =
-                parse_name("--strategy", "strategy", renderer::kStrategies, text);
-          },
-          fmt::format("One of {}; mis without it",
-                      fmt::join(names_of(renderer::kStrategies), ", ")))
-      .type("NAME");
-  command
-      .add_text(
-          "--heuristic",
-          [&](const std::string& text) {
-            arguments.options.path.heuristic = parse_heuristic(text);
-          },
-          fmt::format("One of {}; power=2 without it. power=b and cutoff=a take a parameter",
-                      fmt::join(names_of(renderer::kHeuristics), ", ")))
-      .type("NAME");
-  command
-      .add("--counts", arguments.counts,
-           "Samples of each technique at the first vertex, for mis; 1,1 without it")
-      .type("BSDF,LIGHT");
-  command
-      .add("--light-probability", arguments.light_probability,
-           "Chance of the light, for one-sample; 0.5 without it")
-      .type("C");
-  command
-      .add("--roulette", arguments.roulette,
-           "Russian roulette from this depth on, or off; the scene's without it")
-      .type("N");
-  command
-      .add_text(
-          "--sampler",
-          [&](const std::string& text) {
-            arguments.options.sampler =
-                parse_name("--sampler", "sampler", renderer::kSamplers, text);
-          },
-          fmt::format("One of {}; independent without it",
-                      fmt::join(names_of(renderer::kSamplers), ", ")))
-      .type("NAME");
-  command
-      .add_text(
-          "--backend",
-          [&](const std::string& text) {
-            arguments.options.backend =
-                parse_name("--backend", "backend", renderer::kBackends, text);
-          },
-          fmt::format(
-              "One of {}: many paths side by side, or one after the other; the same image but for "
-              "rounding (docs/conventions.md). batched without it",
-              fmt::join(names_of(renderer::kBackends), ", ")))
-      .type("NAME");
-  command
-      .add_text(
-          "--light-selection",
-          [&](const std::string& text) {
-            arguments.light_selection =
-                parse_name("--light-selection", "selection", renderer::kLightSelections, text);
-          },
-          fmt::format("How one of the lights is chosen, one of {}; uniform without it",
-                      fmt::join(names_of(renderer::kLightSelections), ", ")))
-      .type("NAME");
-  command
-      .add("--replicates", arguments.replicates,
-           "Of sobol: scrambles that --spp is dealt out to, which show the noise; 4 without "
-           "it, 1 for the least noise and no estimate of it")
-      .whole_number(1, 1024)
-      .type("N");
-  command.add("--spp", arguments.samples, "Samples per pixel; the scene's without it")
-      .whole_number(1, kMaxSamples)
-      .type("N");
-  command.add("--seconds", arguments.options.seconds, "Stop after this time")
-      .positive_number()
-      .type("S");
-  command.add("--error", arguments.options.relative_error, "Stop at this estimated relative error")
-      .positive_number()
-      .type("E");
-  command
-      .add("--max-depth", arguments.max_depth,
-           "1: emission only, 2: direct light too, -1: all; the scene's without it")
-      .whole_number(-1, std::numeric_limits<int>::max())
-      .type("N");
-  command.add("--seed", arguments.options.seed, "The same seed gives the same bits; 0 without it")
-      .whole_number(0, std::numeric_limits<std::int64_t>::max())
-      .type("N");
-  command
-      .add("--threads", arguments.options.threads, "All cores without it; no matter to the image")
-      .whole_number(1, 1024)
-      .type("N");
-  command.add("--size", arguments.size, "Size of the image in place of the scene's").type("WxH");
-  command.add("--json", arguments.json, "Write rays, time, mean and settings to this file")
-      .type("FILE");
-  command.add("-D", arguments.definitions, "Value for a <default> of the scene; repeatable")
-      .one_value_each()
-      .type("NAME=VALUE");
+void Outputs::write_files(const Job& job, const renderer::RenderResult& result,
+                          reports::RenderRecord& record) {
+  if (!output_.is_device()) record.image = arguments_.output;
+  renderer::Image image = to_image(result.film);
+  image.metadata = metadata(record);
+  if (!arguments_.checkpoint.shard.empty()) image.metadata["shard"] = arguments_.checkpoint.shard;
+  if (result.stopped) image.metadata["stopped"] = stopped_at(job.options, result);
+  output_.fill([&](const auto& path) { write_exr(path, image); });
+  if (!result.stopped) share_map_.write(result);  // the shares of a pixel are those at its end
+  if (json_) {
+    json_->fill([&](const auto& path) { write_render_record(path, record, json_->target()); });
+  }
+  files_.finish();
+}
+
+/// What it finds, and then a line of progress.
+std::unique_ptr<Progress> tell_of(const RenderArguments& arguments, Job& job) {
+  print_found(arguments, job.description, job.scene, job.options);
+  auto progress =
+      std::make_unique<Progress>(job.options.seconds, job.options.samples_per_pixel < kMaxSamples);
+  if (progress->shown()) {
+    job.options.progress = [line = progress.get()](double done) { line->update(done); };
+  }
+  return progress;
+}
+
+int render_alone(const RenderArguments& arguments) {
+  Outputs outputs(arguments);
+  Job job(arguments);
+  outputs.attach(job);
+  const std::unique_ptr<Progress> progress = tell_of(arguments, job);
+  const output::StopRequests stops_at_signals;
+  return outputs.write(job, render(job.scene, job.options));
+}
+
+/// The first rank alone writes and says anything.
+int render_in_rank(const RenderArguments& arguments, mpi::Ranks& ranks) {
+  std::optional<Outputs> outputs;
+  std::optional<Job> job;
+  agree(ranks, [&] {
+    if (ranks.is_first()) outputs.emplace(arguments);
+    job.emplace(arguments);
+    if (outputs) outputs->attach(*job);
+    require_renderable(job->options);
+  });
+  require_one_render(ranks, checkpoint_settings(job->description, job->options));
+  const std::unique_ptr<Progress> progress = outputs ? tell_of(arguments, *job) : nullptr;
+  const output::StopRequests stops_at_signals;
+  const double every = arguments.checkpoint.file.empty() ? 0 : arguments.checkpoint.every;
+  const renderer::RenderResult result = render_by_ranks(ranks, job->scene, job->options, every);
+  if (outputs) return outputs->write(*job, result);
+  return result.stopped ? output::exit_code_of_signal(output::stop_signal()) : kExitFine;
+}
+
+int run_render(const RenderArguments& arguments) {
+  if (!arguments.ranks.asked_for) return render_alone(arguments);
+  return mpi::run_in_ranks(arguments.ranks.timeout,
+                           [&](mpi::Ranks& ranks) { return render_in_rank(arguments, ranks); });
 }
 
 }  // namespace
@@ -369,17 +284,16 @@ void add_options(options::Command& command, RenderArguments& arguments) {
 void add_render_command(options::CommandLine& line) {
   const auto arguments = std::make_shared<RenderArguments>();
   options::Command command = line.add_command("render", "Render a scene to an OpenEXR image");
-  add_options(command, *arguments);
-  add_allocation_options(command, arguments->allocation);
-  add_checkpoint_options(command, arguments->checkpoint);
+  add_render_options(command, *arguments);
   command.footer(R"(Examples:
   plumbline render furnace_cube -o cube.exr --strategy one-sample --heuristic balance --spp 1024
   plumbline render sphere_light -o light.exr -D radius=0.1 -D height=2 --error 0.01
   plumbline render scene.xml -o /dev/null --seconds 30 --threads 1 --json timing.json
   plumbline render scene.xml -o long.exr --spp 65536 --checkpoint long.checkpoint
+  mpirun -n 8 plumbline render scene.xml -o out.exr --mpi --spp 4096
 
-Ctrl-C, TERM and HUP stop a render within a second and write the image of the samples that are there; their number
-stands in its header. A second signal stops at once. Exit code 128 + signal: 130, 143, 129.
+Ctrl-C, TERM, HUP and USR1 stop a render within a second and write the image of the samples that are there; their
+number stands in its header. A second signal stops at once. Exit code 128 + signal: 130, 143, 129, 138.
 A checkpoint is gone on from with the scene, settings, seed and version that it was kept of alone; --spp may be
 higher.)");
   command.runs([arguments] { return run_render(*arguments); });

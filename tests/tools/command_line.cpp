@@ -60,13 +60,14 @@ std::string run_on_terminal(const std::filesystem::path& directory, const std::s
   return shown;
 }
 
-Running::Running(const std::filesystem::path& directory, const std::string& arguments)
+Running::Running(const std::filesystem::path& directory, const std::string& arguments,
+                 const std::string& through)
     : child_(fork()) {
   if (child_ < 0) throw std::runtime_error("cannot fork");
   if (child_ > 0) return;
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(number, SIG_DFL);
   // exec: the signal must meet the command, not the shell before it.
-  become_shell(directory, "exec '" + kCommand + "' " + arguments + " >" +
+  become_shell(directory, "exec " + through + " '" + kCommand + "' " + arguments + " >" +
                               (outputs_ / "out").string() + " 2>" + (outputs_ / "err").string());
 }
 

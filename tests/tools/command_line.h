@@ -31,7 +31,9 @@ std::string run_on_terminal(const std::filesystem::path& directory, const std::s
 /// `plumbline ARGUMENTS` that goes on by itself; killed, if it still runs, at the end.
 class Running {
  public:
-  Running(const std::filesystem::path& directory, const std::string& arguments);
+  /// @param through  what runs it: "mpirun -n 2"
+  Running(const std::filesystem::path& directory, const std::string& arguments,
+          const std::string& through = "");
   ~Running();
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
@@ -41,6 +43,8 @@ class Running {
   bool waits_for(const std::function<bool()>& condition);
 
   void signal(int number) const;
+
+  pid_t process() const { return child_; }
 
   /// Waits for the end. `Outcome::exit_code` is −signal where one ended it.
   Outcome ended();

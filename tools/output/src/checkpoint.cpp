@@ -8,9 +8,13 @@
 #include <charconv>
 #include <cstddef>
 #include <fstream>
+#include <istream>
+#include <ostream>
 #include <span>
+#include <sstream>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include <plumbline/output/failure.h>
 #include <plumbline/renderer/core/errors.h>
@@ -52,9 +56,7 @@ std::string_view bytes_of(const T& value) {
 
 class Writer {
  public:
-  explicit Writer(const fs::path& path) : path_(path), out_(path, std::ios::binary) {
-    if (!out_) throw_errno(path.string(), "cannot be written to", errno);
-  }
+  explicit Writer(std::ostream& out) : out_(out) {}
 
   void put(std::string_view bytes) {
     hash_.add(bytes);
@@ -64,28 +66,22 @@ class Writer {
   void finish() {
     const std::uint64_t hash = hash_.value();
     put(bytes_of(hash));
-    out_.close();
-    if (out_) return;
-    throw renderer::MachineError(path_.string() + ": cannot be written; is the disk full?");
   }
 
  private:
-  fs::path path_;
-  std::ofstream out_;
+  std::ostream& out_;
   Hash hash_;
 };
 
 class Reader {
  public:
-  explicit Reader(const fs::path& path) : path_(path), in_(path, std::ios::binary) {
-    std::error_code error;
-    if (!in_) throw_errno(path.string(), "cannot be read", errno);
-    left_ = fs::file_size(path, error);
-    if (error) throw_errno(path.string(), "cannot be read", error.value());
-  }
+  /// @param name   for messages
+  /// @param bytes  all that there are
+  Reader(std::istream& in, std::string name, std::uintmax_t bytes)
+      : name_(std::move(name)), in_(in), left_(bytes) {}
 
   [[noreturn]] void refuse(const std::string& why) const {
-    throw renderer::InputError(fmt::format("{}: {}", path_.string(), why));
+    throw renderer::InputError(fmt::format("{}: {}", name_, why));
   }
 
   std::string line() {
@@ -129,9 +125,9 @@ class Reader {
     hash_.add({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
 
-  fs::path path_;
-  std::ifstream in_;
-  std::uintmax_t left_ = 0;
+  std::string name_;
+  std::istream& in_;
+  std::uintmax_t left_;
   Hash hash_;
 };
 
@@ -151,6 +147,34 @@ CheckpointSettings read_settings(Reader& in) {
   return settings;
 }
 
+void put_state(Writer& out, const RenderState& state) {
+  const Counts counts{static_cast<std::uint32_t>(state.film.width()),
+                      static_cast<std::uint32_t>(state.film.height()), state.replicates.size(),
+                      state.bsdf_counts.size()};
+  out.put(bytes_of(counts));
+  out.put(bytes_of(std::span<const std::uint32_t>(state.drawn)));
+  // Under Sobol the film is what the replicates make of it.
+  out.put(bytes_of(std::span<const PixelMoments>(state.replicates.empty() ? state.film.pixels()
+                                                                          : state.replicates)));
+  out.put(bytes_of(std::span<const std::uint32_t>(state.bsdf_counts)));
+  out.put(bytes_of(state.counters));
+  out.put(bytes_of(state.seconds));
+}
+
+RenderState read_state(Reader& in, const Counts& counts) {
+  const std::uint64_t pixels = std::uint64_t{counts.width} * counts.height;
+  RenderState state;
+  state.drawn = in.values<std::uint32_t>(pixels);
+  state.replicates = in.values<PixelMoments>(counts.replicates > 0 ? counts.replicates : pixels);
+  state.film = renderer::Film(static_cast<int>(counts.width), static_cast<int>(counts.height));
+  if (counts.replicates == 0) state.film.pixels().swap(state.replicates);
+  if (counts.replicates == 0) state.replicates.clear();
+  state.bsdf_counts = in.values<std::uint32_t>(counts.bsdf_counts);
+  state.counters = in.value<renderer::PathCounters>();
+  state.seconds = in.value<double>();
+  return state;
+}
+
 /// A name or value in one line.
 std::string in_line(std::string text) {
   for (char& c : text) {
@@ -163,46 +187,52 @@ std::string in_line(std::string text) {
 
 void write_checkpoint(const fs::path& path, const CheckpointSettings& settings,
                       const RenderState& state) {
-  Writer out(path);
+  std::ofstream file(path, std::ios::binary);
+  if (!file) throw_errno(path.string(), "cannot be written to", errno);
+  Writer out(file);
   out.put(fmt::format("{}\n", kFormat));
   for (const auto& [name, value] : settings) {
     out.put(fmt::format("{}={}\n", in_line(name), in_line(value)));
   }
   out.put("\n");
-  const Counts counts{static_cast<std::uint32_t>(state.film.width()),
-                      static_cast<std::uint32_t>(state.film.height()), state.replicates.size(),
-                      state.bsdf_counts.size()};
-  out.put(bytes_of(counts));
-  out.put(bytes_of(std::span<const std::uint32_t>(state.drawn)));
-  // Under Sobol the film is what the replicates make of it.
-  out.put(bytes_of(std::span<const PixelMoments>(state.replicates.empty() ? state.film.pixels()
-                                                                          : state.replicates)));
-  out.put(bytes_of(std::span<const std::uint32_t>(state.bsdf_counts)));
-  out.put(bytes_of(state.counters));
-  out.put(bytes_of(state.seconds));
+  put_state(out, state);
   out.finish();
+  file.close();
+  if (!file) throw renderer::MachineError(path.string() + ": cannot be written; is the disk full?");
 }
 
 Checkpoint read_checkpoint(const fs::path& path) {
-  Reader in(path);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw_errno(path.string(), "cannot be read", errno);
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (error) throw_errno(path.string(), "cannot be read", error.value());
+  Reader in(file, path.string(), bytes);
   if (in.line() != kFormat) in.refuse("is no checkpoint of this version of the format");
   Checkpoint checkpoint;
   checkpoint.settings = read_settings(in);
   const auto counts = in.value<Counts>();
   constexpr std::uint32_t kMaxSide = renderer::kMaxImageSide;
   if (counts.width > kMaxSide || counts.height > kMaxSide) in.refuse("has an unreasonable size");
-  const std::uint64_t pixels = std::uint64_t{counts.width} * counts.height;
-  RenderState& state = checkpoint.state;
-  state.drawn = in.values<std::uint32_t>(pixels);
-  state.replicates = in.values<PixelMoments>(counts.replicates > 0 ? counts.replicates : pixels);
-  state.film = renderer::Film(static_cast<int>(counts.width), static_cast<int>(counts.height));
-  if (counts.replicates == 0) state.film.pixels().swap(state.replicates);
-  if (counts.replicates == 0) state.replicates.clear();
-  state.bsdf_counts = in.values<std::uint32_t>(counts.bsdf_counts);
-  state.counters = in.value<renderer::PathCounters>();
-  state.seconds = in.value<double>();
+  checkpoint.state = read_state(in, counts);
   in.finish();
   return checkpoint;
+}
+
+std::string bytes_of_state(const RenderState& state) {
+  std::ostringstream bytes;
+  Writer out(bytes);
+  put_state(out, state);
+  out.finish();
+  return std::move(bytes).str();
+}
+
+RenderState state_of_bytes(const std::string& bytes) {
+  std::istringstream stream(bytes);
+  Reader in(stream, "a part of a render", bytes.size());
+  RenderState state = read_state(in, in.value<Counts>());
+  in.finish();
+  return state;
 }
 
 void require_same(const fs::path& path, const CheckpointSettings& kept,

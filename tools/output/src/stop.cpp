@@ -29,7 +29,10 @@ std::atomic<bool> asks_first = false;
 std::atomic<int> asked_by = 0;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-bool may_ask(int signal) { return signal == SIGINT || signal == SIGTERM || signal == SIGHUP; }
+/// SIGUSR1 is what batch systems and mpirun hand on without an end that follows.
+bool may_ask(int signal) {
+  return signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGUSR1;
+}
 
 extern "C" void plumbline_on_signal(int signal) {
   int none = 0;
@@ -67,6 +70,11 @@ StopRequests::StopRequests() {
 StopRequests::~StopRequests() { asks_first = false; }
 
 int stop_signal() noexcept { return asked_by.load(std::memory_order_relaxed); }
+
+void ask_to_stop(int signal) noexcept {
+  int none = 0;
+  if (asks_first) asked_by.compare_exchange_strong(none, signal);
+}
 
 bool finishes_before_stop(const std::function<void()>& work) {
   std::packaged_task<void()> task(work);

@@ -35,6 +35,12 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointSetting
 /// @throws renderer::InputError for what is no checkpoint, is torn or was changed
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
+/// A state alone, as a checkpoint holds it: for another process of the same program.
+std::string bytes_of_state(const renderer::RenderState& state);
+
+/// @throws renderer::InputError for what `bytes_of_state` does not make
+renderer::RenderState state_of_bytes(const std::string& bytes);
+
 /// @throws renderer::InputError with each setting that is another
 void require_same(const std::filesystem::path& path, const CheckpointSettings& kept,
                   const CheckpointSettings& given);

@@ -10,8 +10,8 @@ namespace plumbline::output {
 /// its limit is an error of write(2), not a death without a word.
 void handle_signals();
 
-/// While one exists, the first SIGINT, SIGTERM or SIGHUP only asks the work to stop, so that it can
-/// keep what is done; the second ends the process. One at a time.
+/// While one exists, the first SIGINT, SIGTERM, SIGHUP or SIGUSR1 only asks the work to stop, so
+/// that it can keep what is done; the second ends the process. One at a time.
 class StopRequests {
  public:
   StopRequests();
@@ -23,6 +23,10 @@ class StopRequests {
 /// The signal that asked the work to stop; 0 where none has. Cheap, from any thread.
 int stop_signal() noexcept;
 
+/// As if the signal had come, where StopRequests wait for the first: from another process that was
+/// asked.
+void ask_to_stop(int signal) noexcept;
+
 /// Does work that knows nothing of signals: in a thread of its own, which is left behind where a
 /// signal asks to stop. What it throws is thrown on.
 ///
@@ -30,7 +34,8 @@ int stop_signal() noexcept;
 ///          (`std::_Exit`), for the thread still works
 bool finishes_before_stop(const std::function<void()>& work);
 
-/// As shells call a process that a signal ended: 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP.
+/// As shells call a process that a signal ended: 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP,
+/// 138 for SIGUSR1.
 constexpr int exit_code_of_signal(int signal) { return 128 + signal; }
 
 /// Removes the file if a signal ends the process, until it is forgotten. A name longer than the

@@ -1,0 +1,189 @@
+#include "render_arguments.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include <plumbline/renderer/assembly/names.h>
+#include <plumbline/renderer/core/errors.h>
+
+#include "render_values.h"
+
+namespace plumbline::tools {
+namespace {
+
+void add_basic_options(options::Command& command, RenderArguments& arguments) {
+  command.add("scene", arguments.scene, "Scene file, or name of a known scene").required().type("");
+  command.add("-o,--output", arguments.output, "OpenEXR file to write").required().type("FILE");
+  command
+      .add_text(
+          "--strategy",
+          [&](const std::string& text) {
+            arguments.options.path.strategy =
+                parse_name("--strategy", "strategy", renderer::kStrategies, text);
+          },
+          fmt::format("One of {}; mis without it",
+                      fmt::join(names_of(renderer::kStrategies), ", ")))
+      .type("NAME");
+  command
+      .add_text(
+          "--heuristic",
+          [&](const std::string& text) {
+            arguments.options.path.heuristic = parse_heuristic(text);
+          },
+          fmt::format("One of {}; power=2 without it. power=b and cutoff=a take a parameter",
+                      fmt::join(names_of(renderer::kHeuristics), ", ")))
+      .type("NAME");
+  command
+      .add("--counts", arguments.counts,
+           "Samples of each technique at the first vertex, for mis; 1,1 without it")
+      .type("BSDF,LIGHT");
+  command
+      .add("--light-probability", arguments.light_probability,
+           "Chance of the light, for one-sample; 0.5 without it")
+      .type("C");
+  command
+      .add("--roulette", arguments.roulette,
+           "Russian roulette from this depth on, or off; the scene's without it")
+      .type("N");
+  command
+      .add_text(
+          "--sampler",
+          [&](const std::string& text) {
+            arguments.options.sampler =
+                parse_name("--sampler", "sampler", renderer::kSamplers, text);
+          },
+          fmt::format("One of {}; independent without it",
+                      fmt::join(names_of(renderer::kSamplers), ", ")))
+      .type("NAME");
+  command
+      .add_text(
+          "--backend",
+          [&](const std::string& text) {
+            arguments.options.backend =
+                parse_name("--backend", "backend", renderer::kBackends, text);
+          },
+          fmt::format(
+              "One of {}: many paths side by side, or one after the other; the same image but for "
+              "rounding (docs/conventions.md). batched without it",
+              fmt::join(names_of(renderer::kBackends), ", ")))
+      .type("NAME");
+  command
+      .add_text(
+          "--light-selection",
+          [&](const std::string& text) {
+            arguments.light_selection =
+                parse_name("--light-selection", "selection", renderer::kLightSelections, text);
+          },
+          fmt::format("How one of the lights is chosen, one of {}; uniform without it",
+                      fmt::join(names_of(renderer::kLightSelections), ", ")))
+      .type("NAME");
+  command
+      .add("--replicates", arguments.replicates,
+           "Of sobol: scrambles that --spp is dealt out to, which show the noise; 4 without "
+           "it, 1 for the least noise and no estimate of it")
+      .whole_number(1, 1024)
+      .type("N");
+  command.add("--spp", arguments.samples, "Samples per pixel; the scene's without it")
+      .whole_number(1, kMaxSamples)
+      .type("N");
+  command.add("--seconds", arguments.options.seconds, "Stop after this time")
+      .positive_number()
+      .type("S");
+  command.add("--error", arguments.options.relative_error, "Stop at this estimated relative error")
+      .positive_number()
+      .type("E");
+  command
+      .add("--max-depth", arguments.max_depth,
+           "1: emission only, 2: direct light too, -1: all; the scene's without it")
+      .whole_number(-1, std::numeric_limits<int>::max())
+      .type("N");
+  command.add("--seed", arguments.options.seed, "The same seed gives the same bits; 0 without it")
+      .whole_number(0, std::numeric_limits<std::int64_t>::max())
+      .type("N");
+  command
+      .add("--threads", arguments.options.threads, "All cores without it; no matter to the image")
+      .whole_number(1, 1024)
+      .type("N");
+  command.add("--size", arguments.size, "Size of the image in place of the scene's").type("WxH");
+  command.add("--json", arguments.json, "Write rays, time, mean and settings to this file")
+      .type("FILE");
+  command.add("-D", arguments.definitions, "Value for a <default> of the scene; repeatable")
+      .one_value_each()
+      .type("NAME=VALUE");
+}
+
+void add_rank_options(options::Command& command, RankArguments& arguments) {
+  command
+      .add_flag(
+          "--mpi", arguments.asked_for,
+          "Deal the pixels out to the ranks of an mpirun: the same image, bit for bit, for any "
+          "number of ranks (docs/scaling.md)")
+      .excludes("--shard")
+      .excludes("--seconds");
+  command
+      .add("--mpi-timeout", arguments.timeout,
+           "A rank that has said nothing for so long ends the job; 60 without it")
+      .positive_number()
+      .needs("--mpi")
+      .type("S");
+}
+
+/// Options of one strategy that are given with another would be without effect.
+void require_strategy(const RenderArguments& arguments, renderer::Strategy strategy,
+                      const char* option) {
+  const renderer::Strategy given = arguments.options.path.strategy;
+  if (given == strategy) return;
+  throw renderer::InputError(
+      fmt::format("{} belongs to --strategy {}, not {}", option, name(strategy), name(given)));
+}
+
+/// Into how many scrambles the samples of a pixel are dealt out. Two would do for a variance, but
+/// one of a single degree of freedom.
+std::uint32_t replicates_of(const RenderArguments& arguments) {
+  if (arguments.options.sampler == renderer::SamplerType::sobol) {
+    return arguments.replicates.value_or(4);
+  }
+  if (arguments.replicates) {
+    throw renderer::InputError("--replicates belongs to --sampler sobol");
+  }
+  return 1;
+}
+
+}  // namespace
+
+renderer::RenderOptions render_options(const RenderArguments& arguments,
+                                       const renderer::SceneDescription& scene) {
+  renderer::RenderOptions options = arguments.options;
+  options.path.max_depth = arguments.max_depth.value_or(scene.integrator.max_depth);
+  options.path.rr_depth =
+      arguments.roulette.empty() ? scene.integrator.rr_depth : parse_roulette(arguments.roulette);
+  if (!arguments.counts.empty()) {
+    require_strategy(arguments, renderer::Strategy::mis, "--counts");
+    set_counts(arguments.counts, options.path);
+  }
+  if (arguments.light_probability) {
+    require_strategy(arguments, renderer::Strategy::one_sample, "--light-probability");
+    const double c = *arguments.light_probability;
+    if (!(c > 0 && c < 1)) {
+      throw renderer::InputError("--light-probability: must lie between 0 and 1, both excluded");
+    }
+    options.path.light_probability = static_cast<float>(c);
+  }
+  // A limit on time or error stands for the number of samples unless both are given.
+  const bool other_limit = options.seconds > 0 || options.relative_error > 0;
+  options.samples_per_pixel = arguments.samples.value_or(
+      other_limit ? kMaxSamples : static_cast<std::uint32_t>(scene.samples_per_pixel));
+  options.replicates = replicates_of(arguments);
+  set_allocation(arguments.allocation, arguments.samples.has_value(), options);
+  return options;
+}
+
+void add_render_options(options::Command& command, RenderArguments& arguments) {
+  add_basic_options(command, arguments);
+  add_allocation_options(command, arguments.allocation);
+  add_checkpoint_options(command, arguments.checkpoint);
+  add_rank_options(command, arguments.ranks);
+}
+
+}  // namespace plumbline::tools

@@ -1,0 +1,108 @@
+#include "shard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <plumbline/output/checkpoint.h>
+#include <plumbline/renderer/core/errors.h>
+
+namespace plumbline::tools {
+namespace {
+
+/// Calls the function with the place of each pixel of a part in an image, and in the part.
+template <class Function>
+void for_each_pixel(const Shard& shard, std::size_t pixels, const Function& function) {
+  std::size_t in_part = 0;
+  for (std::size_t i = shard.number - 1; i < pixels; i += shard.count) function(i, in_part++);
+}
+
+/// Copies what each pixel has so many of.
+template <class T>
+void copy_pixel(const std::vector<T>& from, std::size_t i, std::vector<T>& to, std::size_t j,
+                std::size_t of_each) {
+  std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * of_each), of_each,
+              to.begin() + static_cast<std::ptrdiff_t>(j * of_each));
+}
+
+/// What a pixel has beside its moments.
+struct OfEach {
+  explicit OfEach(const renderer::RenderState& state)
+      : replicates(state.drawn.empty() ? 0 : state.replicates.size() / state.drawn.size()),
+        bsdf_counts(state.drawn.empty() ? 0 : state.bsdf_counts.size() / state.drawn.size()) {}
+  std::size_t replicates, bsdf_counts;
+};
+
+void copy(const renderer::RenderState& from, std::size_t i, renderer::RenderState& to,
+          std::size_t j, const OfEach& each) {
+  to.drawn[j] = from.drawn[i];
+  to.film.pixels()[j] = from.film.pixels()[i];
+  copy_pixel(from.replicates, i, to.replicates, j, each.replicates);
+  copy_pixel(from.bsdf_counts, i, to.bsdf_counts, j, each.bsdf_counts);
+}
+
+/// A part without samples, of the size that it has in such a state.
+renderer::RenderState empty_part(const Shard& shard, const renderer::RenderState& state) {
+  const std::size_t pixels = state.drawn.size();
+  const std::size_t first = shard.number - 1;
+  const std::size_t size = first < pixels ? (pixels - first - 1) / shard.count + 1 : 0;
+  const OfEach each(state);
+  renderer::RenderState part;
+  part.film = renderer::Film(static_cast<int>(size), 1);
+  part.drawn.resize(size);
+  part.replicates.resize(size * each.replicates);
+  part.bsdf_counts.resize(size * each.bsdf_counts);
+  return part;
+}
+
+}  // namespace
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  if (text.empty()) return shard;
+  const char* end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, shard.number);
+  if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
+    const auto count = std::from_chars(number.ptr + 1, end, shard.count);
+    if (count.ec == std::errc() && count.ptr == end && shard.number >= 1 &&
+        shard.number <= shard.count) {
+      return shard;
+    }
+  }
+  throw renderer::InputError(
+      fmt::format("--shard {}: must read I/N, the part I from 1 to N of N", text));
+}
+
+void keep_only(const Shard& shard, renderer::RenderState& state) {
+  for (std::size_t i = 0; i < state.drawn.size(); ++i) {
+    if (!shard.has(i)) state.drawn[i] = output::kElsewhere;
+  }
+}
+
+renderer::RenderState taken_out(const Shard& shard, const renderer::RenderState& state) {
+  renderer::RenderState part = empty_part(shard, state);
+  const OfEach each(state);
+  for_each_pixel(shard, state.drawn.size(),
+                 [&](std::size_t i, std::size_t j) { copy(state, i, part, j, each); });
+  part.counters = state.counters;
+  part.seconds = state.seconds;
+  return part;
+}
+
+void put_back(const Shard& shard, const renderer::RenderState& part, renderer::RenderState& state) {
+  const renderer::RenderState expected = empty_part(shard, state);
+  if (part.drawn.size() != expected.drawn.size() ||
+      part.replicates.size() != expected.replicates.size() ||
+      part.bsdf_counts.size() != expected.bsdf_counts.size()) {
+    throw renderer::InputError("a part of another render came");
+  }
+  const OfEach each(state);
+  for_each_pixel(shard, state.drawn.size(),
+                 [&](std::size_t i, std::size_t j) { copy(part, j, state, i, each); });
+}
+
+}  // namespace plumbline::tools
