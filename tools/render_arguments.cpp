@@ -113,22 +113,6 @@ void add_basic_options(options::Command& command, RenderArguments& arguments) {
       .type("NAME=VALUE");
 }
 
-void add_rank_options(options::Command& command, RankArguments& arguments) {
-  command
-      .add_flag(
-          "--mpi", arguments.asked_for,
-          "Deal the pixels out to the ranks of an mpirun: the same image, bit for bit, for any "
-          "number of ranks (docs/scaling.md)")
-      .excludes("--shard")
-      .excludes("--seconds");
-  command
-      .add("--mpi-timeout", arguments.timeout,
-           "A rank that has said nothing for so long ends the job; 60 without it")
-      .positive_number()
-      .needs("--mpi")
-      .type("S");
-}
-
 /// Options of one strategy that are given with another would be without effect.
 void require_strategy(const RenderArguments& arguments, renderer::Strategy strategy,
                       const char* option) {
@@ -183,7 +167,12 @@ void add_render_options(options::Command& command, RenderArguments& arguments) {
   add_basic_options(command, arguments);
   add_allocation_options(command, arguments.allocation);
   add_checkpoint_options(command, arguments.checkpoint);
-  add_rank_options(command, arguments.ranks);
+  add_rank_options(
+      command, arguments.ranks,
+      "Deal the pixels out to the ranks of an mpirun: the same image, bit for bit, for "
+      "any number of ranks (docs/scaling.md)")
+      .excludes("--shard")
+      .excludes("--seconds");
 }
 
 }  // namespace plumbline::tools

@@ -11,17 +11,12 @@
 
 #include "allocation_options.h"
 #include "checkpoint_options.h"
+#include "rank_options.h"
 
 namespace plumbline::tools {
 
 /// What is asked for where no number of samples is, but another limit.
 inline constexpr std::uint32_t kMaxSamples = 1u << 31;
-
-/// What `render` was told about ranks.
-struct RankArguments {
-  bool asked_for = false;
-  double timeout = 60;  ///< [s]
-};
 
 /// What `render` was told.
 struct RenderArguments {

@@ -1,28 +1,31 @@
 #include <fmt/format.h>
 
-#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <plumbline/exchange/answerer.h>
 #include <plumbline/exchange/self_test.h>
+#include <plumbline/mpi/ranks.h>
+#include <plumbline/output/failure.h>
 #include <plumbline/output/output_file.h>
 #include <plumbline/renderer/core/errors.h>
 #include <plumbline/reports/results.h>
 #include <plumbline/verify/bsdf.h>
 #include <plumbline/verify/conventions.h>
-#include <plumbline/verify/detail/stopwatch.h>
 #include <plumbline/verify/waiver.h>
 
 #include "command.h"
 #include "domain_argument.h"
+#include "rank_options.h"
+#include "verify_check.h"
 #include "verify_options.h"
+#include "verify_suite.h"
 
 namespace plumbline::tools {
 namespace {
@@ -33,9 +36,10 @@ struct VerifyArguments {
   bool self_test = false, quick = false, not_reciprocal = false, gains_energy = false;
   std::vector<std::string> conventions;
   std::optional<double> timeout, eta;
+  std::string suite;
+  std::uint64_t seeds = 1;
+  RankArguments ranks;
 };
-
-using SharedAnswerer = exchange::SharedAnswerer;
 
 /// What the command line and the file say together.
 reports::VerifyOptionsFile all_given(const VerifyArguments& arguments) {
@@ -50,105 +54,76 @@ reports::VerifyOptionsFile all_given(const VerifyArguments& arguments) {
   return given;
 }
 
-exchange::AnswererOptions answerer_options(const reports::VerifyOptionsFile& given) {
-  exchange::AnswererOptions options;
-  options.command = given.exec.value_or("");
-  options.folder = given.exchange.value_or("");
-  options.timeout = given.timeout.value_or(options.timeout);
-  constexpr double kLongest = 1e6;
-  if (!(options.timeout > 0) || options.timeout > kLongest) {
-    throw renderer::InputError("a timeout is a positive number of seconds, a million at most");
-  }
-  if (options.command.empty() && options.folder.empty()) {
-    throw renderer::InputError("verify needs --exec COMMAND or --exchange DIR");
-  }
-  return options;
-}
-
-/// The domain asked for, else the one that the program states; nothing: a BSDF.
-std::optional<verify::Domain> domain_of(const std::optional<std::string>& asked,
-                                        const reports::AnswererHello& hello) {
-  if (asked && !hello.domain.empty() && *asked != hello.domain) {
-    throw renderer::InputError(
-        fmt::format("--domain {}, but the program answers for {}", *asked, hello.domain));
-  }
-  return parse_domain(asked.value_or(hello.domain.empty() ? "bsdf" : hello.domain));
-}
-
-/// A BSDF without `eval`: what its `sample` and `pdf` say of each other, from each direction.
-verify::Report check_without_eval(const std::string& name, const verify::ErasedBsdf& bsdf,
-                                  const verify::BsdfOptions& options) {
-  fmt::print("no eval: weights, reciprocity and energy are not checked\n");
-  verify::Random random(options.contract.seed);
-  verify::Report all;
-  for (const bool front : {true, false}) {
-    if (!(front ? options.front : options.back)) continue;
-    for (const double degrees : options.angles) {
-      const double theta = degrees * std::numbers::pi / 180;
-      const double phi = 2 * std::numbers::pi * random.uniform();
-      const verify::Vec3 wo{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                            front ? std::cos(theta) : -std::cos(theta)};
-      verify::SamplingPair pair = verify::bsdf_pair(
-          fmt::format("{}/{} {:.4g}°", name, front ? "front" : "back", degrees), bsdf, wo, options);
-      pair.value = nullptr;
-      all.append(verify::check_pair(pair, options.contract));
-    }
-  }
-  return all;
-}
-
-verify::Report check(const SharedAnswerer& answerer, const reports::VerifyOptionsFile& given) {
-  const verify::BsdfOptions options = bsdf_options(given);
-  const std::string name = given.name.value_or(answerer->hello().name);
-  if (const auto domain = domain_of(given.domain, answerer->hello())) {
-    if (given.conventions || given.angles || given.faces || given.eta) {
-      throw renderer::InputError(
-          "conventions, angles, faces and eta belong to a BSDF, not to other domains");
-    }
-    return verify::check_pair(exchange::as_pair(answerer, name, *domain), options.contract);
-  }
-  const verify::ErasedBsdf bsdf = exchange::as_bsdf(answerer, options.conventions);
-  return bsdf.eval ? verify::check_bsdf(name, bsdf, options)
-                   : check_without_eval(name, bsdf, options);
-}
-
 constexpr const char* kLogName = "verify";
 
 std::filesystem::path log_of(const std::filesystem::path& results) {
   return results / (std::string(kLogName) + ".jsonl");
 }
 
-void keep_results(const VerifyArguments& arguments, const verify::Report& report) {
-  if (arguments.results.empty()) return;
-  reports::ResultLog log(arguments.results, kLogName);
-  for (const verify::CheckResult& result : report) log.append(result);
-}
+/// Where results are written, but for what is printed.
+class Outputs {
+ public:
+  explicit Outputs(const VerifyArguments& arguments) : arguments_(arguments) {
+    for (const std::string& read : {arguments.options_file, arguments.waivers, arguments.suite}) {
+      files_.reads(read);
+    }
+    if (!arguments.results.empty()) files_.reads(log_of(arguments.results));
+    if (!arguments.json.empty()) json_ = &files_.writes("--json", arguments.json);
+  }
+
+  void keep(const std::vector<verify::CheckResult>& results) {
+    if (!arguments_.results.empty()) {
+      reports::ResultLog log(arguments_.results, kLogName);
+      for (const verify::CheckResult& result : results) log.append(result);
+    }
+    if (!json_) return;
+    json_->fill([&](const auto& path) { reports::write_checks(path, results); });
+    files_.finish();
+  }
+
+ private:
+  const VerifyArguments& arguments_;
+  output::Files files_;
+  output::OutputFile* json_ = nullptr;
+};
 
 int run_checks(const VerifyArguments& arguments, const reports::VerifyOptionsFile& given) {
-  output::Files files;
-  files.reads(arguments.options_file);
-  files.reads(arguments.waivers);
-  if (!arguments.results.empty()) files.reads(log_of(arguments.results));
-  output::OutputFile* json =
-      arguments.json.empty() ? nullptr : &files.writes("--json", arguments.json);
-  const verify::BsdfOptions options = bsdf_options(given);  // wrong ones start no program
+  Outputs outputs(arguments);
   const std::vector<verify::Waiver> waivers = read_waivers(arguments.waivers);
-  const auto answerer = std::make_shared<exchange::Answerer>(answerer_options(given));
-  const verify::Stopwatch watch;
-  verify::Report report = verify::waive(check(answerer, given), waivers);
-  const double seconds = watch.seconds();
-  const std::string end = answerer->finish();
-  if (!end.empty()) output::tell(fmt::format("plumbline: {}\n", end));
-  report.replay = replay_command(given, options.contract.seed);
-  for (verify::CheckResult& result : report) result.replay = report.replay;
-  keep_results(arguments, report);
-  if (json) {
-    json->fill([&](const auto& path) { reports::write_checks(path, report.results); });
-    files.finish();
-  }
-  fmt::print("{}\n{} values in {} queries, {:.1f} s\n", report.summary(), answerer->values(),
-             answerer->queries(), seconds);
+  const CheckedProgram checked = check_program(given);
+  fmt::print("{}", checked.left_out);
+  if (!checked.end.empty()) output::tell(fmt::format("plumbline: {}\n", checked.end));
+  verify::Report report = verify::waive(checked.report, waivers);
+  note_replay(report);
+  outputs.keep(report.results);
+  fmt::print("{}\n{} values in {} queries, {:.1f} s\n", report.summary(), checked.values,
+             checked.queries, checked.seconds);
   return report.ok() ? kExitFine : kExitUnexpectedVerdict;
+}
+
+int run_suite_alone(const VerifyArguments& arguments, const reports::VerifyOptionsFile& given) {
+  Outputs outputs(arguments);
+  return run_suite(nullptr, read_suite(arguments.suite, given, arguments.seeds),
+                   [&](const auto& results) { outputs.keep(results); });
+}
+
+int run_suite_in_rank(const VerifyArguments& arguments, const reports::VerifyOptionsFile& given,
+                      mpi::Ranks& ranks) {
+  std::optional<Outputs> outputs;
+  std::vector<SuiteEntry> entries;
+  agree(ranks, [&] {
+    if (ranks.is_first()) outputs.emplace(arguments);
+    entries = read_suite(arguments.suite, given, arguments.seeds);
+  });
+  require_one_suite(ranks, entries);
+  return run_suite(&ranks, entries, [&](const auto& results) { outputs->keep(results); });
+}
+
+int run_suite_of(const VerifyArguments& arguments, const reports::VerifyOptionsFile& given) {
+  if (!arguments.ranks.asked_for) return run_suite_alone(arguments, given);
+  return mpi::run_in_ranks(arguments.ranks.timeout, [&](mpi::Ranks& ranks) {
+    return run_suite_in_rank(arguments, given, ranks);
+  });
 }
 
 int run_self_test(const reports::VerifyOptionsFile& given) {
@@ -167,6 +142,7 @@ int run_self_test(const reports::VerifyOptionsFile& given) {
 int run_verify(const VerifyArguments& arguments) {
   const reports::VerifyOptionsFile given = all_given(arguments);
   if (given.domain) parse_domain(*given.domain);
+  if (!arguments.suite.empty()) return run_suite_of(arguments, given);
   try {
     return arguments.self_test ? run_self_test(given) : run_checks(arguments, given);
   } catch (const exchange::AnswererError& error) {
@@ -205,6 +181,7 @@ Examples:
   plumbline verify --exec ./mine --self-test
   plumbline verify --exec ./mine --convention mitsuba --angles 0,60,80 --faces front
   plumbline verify --exec 'python3 light.py' --domain sphere --json light.jsonl
+  mpirun -n 8 plumbline verify --suite pairs.jsonl --seeds 10 --mpi --json results.jsonl
   plumbline verify --exec ./batch_job --exchange /tmp/queries --timeout 600)";
 
 /// Options whose values go where a file's go too.
@@ -268,11 +245,28 @@ void add_verify_command(options::CommandLine& line) {
   command.add("--options", arguments->options_file, "JSON file of options; the command line's win")
       .type("FILE");
   command
+      .add("--suite", arguments->suite,
+           "Check many programs: a file with an object of --options on each line")
+      .excludes("--options")
+      .type("FILE");
+  command
+      .add("--seeds", arguments->seeds, "Of --suite: check each with so many seeds; 1 without it")
+      .whole_number(1, 1'000'000)
+      .needs("--suite")
+      .type("N");
+  add_rank_options(command, arguments->ranks,
+                   "Deal the programs and seeds of --suite out to the ranks of an mpirun "
+                   "(docs/scaling.md)")
+      .needs("--suite");
+  command
       .add("--waivers", arguments->waivers,
            "JSON file of known failures: [{\"check\": …, \"reason\": …, \"until\": …}]")
+      .excludes("--suite")
       .type("FILE");
-  command.add_flag("--self-test", arguments->self_test,
-                   "Does the program keep to the protocol? Whatever its values are");
+  command
+      .add_flag("--self-test", arguments->self_test,
+                "Does the program keep to the protocol? Whatever its values are")
+      .excludes("--suite");
   command.add("--json", arguments->json, "File to write the results to, a line of JSON each")
       .type("FILE");
   command.add("--results", arguments->results, "Directory to add the results to, for report")

@@ -102,28 +102,59 @@ std::vector<double> parse_angles(const std::string& text) {
   throw renderer::InputError("--angles " + text + ": must read like 0,60,80");
 }
 
+Given completed(Given given, Given by) {
+  complete(given.exec, by.exec);
+  complete(given.exchange, by.exchange);
+  complete(given.name, by.name);
+  complete(given.domain, by.domain);
+  complete(given.timeout, by.timeout);
+  complete(given.eta, by.eta);
+  complete(given.angles, by.angles);
+  complete(given.conventions, by.conventions);
+  complete(given.faces, by.faces);
+  complete(given.reciprocal, by.reciprocal);
+  complete(given.conserves_energy, by.conserves_energy);
+  complete(given.quick, by.quick);
+  complete(given.samples, by.samples);
+  complete(given.seed, by.seed);
+  return given;
+}
+
 Given with_file(Given given, const std::string& path) {
   const std::string text = text_of(path);
   try {
-    Given from_file = reports::parse_verify_options(text);
-    complete(given.exec, from_file.exec);
-    complete(given.exchange, from_file.exchange);
-    complete(given.name, from_file.name);
-    complete(given.domain, from_file.domain);
-    complete(given.timeout, from_file.timeout);
-    complete(given.eta, from_file.eta);
-    complete(given.angles, from_file.angles);
-    complete(given.conventions, from_file.conventions);
-    complete(given.faces, from_file.faces);
-    complete(given.reciprocal, from_file.reciprocal);
-    complete(given.conserves_energy, from_file.conserves_energy);
-    complete(given.quick, from_file.quick);
-    complete(given.samples, from_file.samples);
-    complete(given.seed, from_file.seed);
+    return completed(std::move(given), reports::parse_verify_options(text));
   } catch (const reports::FormatError& error) {
     throw renderer::InputError(path + ": " + error.what());
   }
-  return given;
+}
+
+std::vector<SuiteEntry> read_suite(const std::string& path, const Given& given,
+                                   std::uint64_t seeds) {
+  std::istringstream lines(text_of(path));
+  std::vector<SuiteEntry> entries;
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const std::string place = fmt::format("{}:{}", path, number);
+    SuiteEntry entry{place, {}};
+    try {
+      entry.given = completed(given, reports::parse_verify_options(line));
+    } catch (const reports::FormatError& error) {
+      throw renderer::InputError(place + ": " + error.what());
+    }
+    const std::uint64_t first = entry.given.seed.value_or(verify::ContractOptions().seed);
+    for (std::uint64_t i = 0; i < seeds; ++i) {
+      if (seeds > 1) {
+        entry.given.seed = first + i;
+        entry.place = fmt::format("{}, seed {}", place, first + i);
+      }
+      entries.push_back(entry);
+    }
+  }
+  if (entries.empty()) throw renderer::InputError(path + ": has no line");
+  return entries;
 }
 
 std::vector<verify::Waiver> read_waivers(const std::string& path) {
