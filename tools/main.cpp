@@ -35,7 +35,7 @@ constexpr const char* kExamples = R"(Examples:
 
 Exit codes: 0 fine, 1 a check did not give its expected verdict, 2 bad input or usage,
 3 the machine failed (disk full, out of memory, of threads or of files), 128 + N ended by the signal N:
-130 for Ctrl-C, 143 for TERM, 129 for HUP.)";
+130 for Ctrl-C, 143 for TERM, 129 for HUP, 138 for USR1.)";
 
 constexpr const char* kOutputLost = "cannot write to the standard output; is it full?";
 

@@ -58,7 +58,7 @@ class FailedRanks : public testing::Test {
 
 class HungRanks : public FailedRanks {
  protected:
-  HungRanks() : FailedRanks("--mpi-timeout 2") {}
+  HungRanks() : FailedRanks("--mpi-timeout 4") {}
 };
 
 TEST_F(FailedRanks, ThatDieEndTheJobWithTheirName) {
@@ -76,7 +76,7 @@ TEST_F(HungRanks, EndTheJobWithTheirName) {
   EXPECT_EQ(outcome.exit_code, 3);
   const std::string silence = "plumbline: rank 1 (process " + std::to_string(hung) + " on ";
   EXPECT_NE(outcome.err.find(silence), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("has said nothing for 2 s; the job ends"), std::string::npos);
+  EXPECT_NE(outcome.err.find("has said nothing for 4 s; the job ends"), std::string::npos);
   EXPECT_EQ(outcome.err.find("plumbline: rank 0"), std::string::npos) << outcome.err;
   EXPECT_GT(state().least_drawn(), 0u);
 }

@@ -20,7 +20,9 @@ std::string content_of(const std::string& file) {
 
 std::string in_ranks(int count) {
   return "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-         "OMPI_MCA_rmaps_base_oversubscribe=1 " PLUMBLINE_MPIEXEC " -n " +
+         "OMPI_MCA_rmaps_base_oversubscribe=1 "
+         // Containers forbid processes to read each other's memory.
+         "OMPI_MCA_btl_vader_single_copy_mechanism=none " PLUMBLINE_MPIEXEC " -n " +
          std::to_string(count);
 }
 

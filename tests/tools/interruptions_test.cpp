@@ -72,7 +72,7 @@ TEST(Interruptions, KilledAtRandomMomentsAndResumedIsNeverKilled) {
 }
 
 TEST(Interruptions, SignalsKeepTheSamplesThatAreThere) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
     const ScratchDirectory scratch;
     Running running(scratch.path(),
                     kScene + "-o out.exr --spp 1000000 --checkpoint state --every 0.01");
