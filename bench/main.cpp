@@ -10,6 +10,7 @@
 #include <plumbline/options/options.h>
 #include <plumbline/reports/results.h>
 
+#include "accelerators.h"
 #include "allocation.h"
 #include "equal_error.h"
 #include "languages.h"
@@ -44,6 +45,7 @@ std::vector<Part> make_parts(const std::filesystem::path& results) {
   return {{"equal-error", "bars_equal_error", measure_equal_error},
           {"ray-replay", "bars_ray_replay", measure_ray_replay},
           {"shadow-rays", "shadow_rays", measure_shadow_rays},
+          {"accelerators", "accelerators", measure_accelerators},
           {"scaling", "bars_scaling", measure_scaling},
           {"speed-error", "speed_error", measure_speed_against_error},
           {"allocation", "sample_allocation",

@@ -41,7 +41,8 @@ struct RayShares {
 };
 
 RayShares measure(const ReplayedScene& replayed, int repetitions, reports::ResultLog& log) {
-  const auto description = load_at_size(replayed.name, replayed.width, replayed.height);
+  auto description = load_at_size(replayed.name, replayed.width, replayed.height);
+  description.accelerator = renderer::Accelerator::embree;  // whose calls are recorded
   const Scene scene = make_scene(description);
   renderer::RenderOptions options;
   options.path.max_depth = description.integrator.max_depth;

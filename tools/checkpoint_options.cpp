@@ -77,6 +77,7 @@ void add_checkpoint_options(options::Command& command, CheckpointArguments& argu
 }
 
 output::CheckpointSettings checkpoint_settings(const renderer::SceneDescription& scene,
+                                               renderer::Accelerator accelerator,
                                                const renderer::RenderOptions& options) {
   const renderer::PathOptions& path = options.path;
   output::CheckpointSettings settings = {
@@ -93,6 +94,7 @@ output::CheckpointSettings checkpoint_settings(const renderer::SceneDescription&
       {"sampler", std::string(name(options.sampler))},
       {"replicates", std::to_string(options.replicates)},
       {"backend", std::string(name(options.backend))},
+      {"accelerator", std::string(name(accelerator))},
       {"error", fmt::format("{}", options.relative_error)},
       {"seed", std::to_string(options.seed)},
       {"version", PLUMBLINE_VERSION},
@@ -107,11 +109,11 @@ Checkpoints::Checkpoints(CheckpointArguments arguments, output::Files& files)
   if (!arguments_.file.empty()) files.writes("--checkpoint", arguments_.file);
 }
 
-void Checkpoints::attach(const renderer::SceneDescription& scene,
+void Checkpoints::attach(const renderer::SceneDescription& scene, renderer::Accelerator accelerator,
                          renderer::RenderOptions& options) {
   options.interruptions.stop = [] { return output::stop_signal() != 0; };
   if (arguments_.file.empty() && arguments_.resume.empty()) return;
-  settings_ = checkpoint_settings(scene, options);
+  settings_ = checkpoint_settings(scene, accelerator, options);
   const Shard shard = parse_shard(arguments_.shard);
   const auto state = std::make_shared<renderer::RenderState>(
       fresh_state(scene.camera.width, scene.camera.height, options));

@@ -22,9 +22,11 @@ struct CheckpointArguments {
 /// Adds --checkpoint, --every, --resume and --shard.
 void add_checkpoint_options(options::Command& command, CheckpointArguments& arguments);
 
-/// All that the samples of a render depend on but for the version: two renders with the same are of
-/// one image.
+/// All that the samples of a render depend on: two renders with the same are of one image.
+///
+/// @param accelerator  that the scene was made with
 output::CheckpointSettings checkpoint_settings(const renderer::SceneDescription& scene,
+                                               renderer::Accelerator accelerator,
                                                const renderer::RenderOptions& options);
 
 /// Keeps a render now and then, and goes on with one that was kept.
@@ -36,9 +38,11 @@ class Checkpoints {
 
   /// Makes the options those of a render that is kept and, where that was asked for, gone on with.
   ///
-  /// @param options  all else is set; kept as long as this
+  /// @param accelerator  that the scene was made with
+  /// @param options      all else is set; kept as long as this
   /// @throws renderer::InputError for a checkpoint of another render, with what is another
-  void attach(const renderer::SceneDescription& scene, renderer::RenderOptions& options);
+  void attach(const renderer::SceneDescription& scene, renderer::Accelerator accelerator,
+              renderer::RenderOptions& options);
 
   /// How to go on with a render that was stopped, as a sentence.
   std::string how_to_resume() const;

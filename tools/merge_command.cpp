@@ -102,6 +102,7 @@ class Sum {
       data[name] = settings_.at(name);
     }
     data["light_selection"] = settings_.at("light selection");
+    data["accelerator"] = settings_.at("accelerator");
     data["max_depth"] = settings_.at("maximum depth");
     return data;
   }

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
 #include <limits>
+#include <string>
 
 #include <plumbline/renderer/assembly/names.h>
 #include <plumbline/renderer/core/errors.h>
@@ -12,19 +15,23 @@
 namespace plumbline::tools {
 namespace {
 
+/// An option with a name of one of `values`, which stand in its help in the place of {}.
+template <class Value, std::size_t N>
+void add_named(options::Command& command, const char* option, const char* what,
+               const std::array<Value, N>& values, Value& value, const char* help) {
+  const auto parse = [&value, &values, option, what](const std::string& text) {
+    value = parse_name(option, what, values, text);
+  };
+  command
+      .add_text(option, parse, fmt::format(fmt::runtime(help), fmt::join(names_of(values), ", ")))
+      .type("NAME");
+}
+
 void add_basic_options(options::Command& command, RenderArguments& arguments) {
   command.add("scene", arguments.scene, "Scene file, or name of a known scene").required().type("");
   command.add("-o,--output", arguments.output, "OpenEXR file to write").required().type("FILE");
-  command
-      .add_text(
-          "--strategy",
-          [&](const std::string& text) {
-            arguments.options.path.strategy =
-                parse_name("--strategy", "strategy", renderer::kStrategies, text);
-          },
-          fmt::format("One of {}; mis without it",
-                      fmt::join(names_of(renderer::kStrategies), ", ")))
-      .type("NAME");
+  add_named(command, "--strategy", "strategy", renderer::kStrategies,
+            arguments.options.path.strategy, "One of {}; mis without it");
   command
       .add_text(
           "--heuristic",
@@ -46,38 +53,18 @@ void add_basic_options(options::Command& command, RenderArguments& arguments) {
       .add("--roulette", arguments.roulette,
            "Russian roulette from this depth on, or off; the scene's without it")
       .type("N");
-  command
-      .add_text(
-          "--sampler",
-          [&](const std::string& text) {
-            arguments.options.sampler =
-                parse_name("--sampler", "sampler", renderer::kSamplers, text);
-          },
-          fmt::format("One of {}; independent without it",
-                      fmt::join(names_of(renderer::kSamplers), ", ")))
-      .type("NAME");
-  command
-      .add_text(
-          "--backend",
-          [&](const std::string& text) {
-            arguments.options.backend =
-                parse_name("--backend", "backend", renderer::kBackends, text);
-          },
-          fmt::format(
-              "One of {}: many paths side by side, or one after the other; the same image but for "
-              "rounding (docs/conventions.md). batched without it",
-              fmt::join(names_of(renderer::kBackends), ", ")))
-      .type("NAME");
-  command
-      .add_text(
-          "--light-selection",
-          [&](const std::string& text) {
-            arguments.light_selection =
-                parse_name("--light-selection", "selection", renderer::kLightSelections, text);
-          },
-          fmt::format("How one of the lights is chosen, one of {}; uniform without it",
-                      fmt::join(names_of(renderer::kLightSelections), ", ")))
-      .type("NAME");
+  add_named(command, "--sampler", "sampler", renderer::kSamplers, arguments.options.sampler,
+            "One of {}; independent without it");
+  add_named(command, "--backend", "backend", renderer::kBackends, arguments.options.backend,
+            "One of {}: many paths side by side, or one after the other; the same image but for "
+            "rounding (docs/conventions.md). batched without it");
+  add_named(
+      command, "--accelerator", "accelerator", renderer::kAccelerators, arguments.accelerator,
+      "What finds where rays meet surfaces, one of {}: by the number of primitives, a tree, or "
+      "all primitives against sixteen rays at once. auto without it");
+  add_named(command, "--light-selection", "selection", renderer::kLightSelections,
+            arguments.light_selection,
+            "How one of the lights is chosen, one of {}; uniform without it");
   command
       .add("--replicates", arguments.replicates,
            "Of sobol: scrambles that --spp is dealt out to, which show the noise; 4 without "

@@ -29,6 +29,7 @@ struct RenderArguments {
   std::string roulette;
   std::optional<std::uint32_t> replicates;
   renderer::LightSelection light_selection = renderer::LightSelection::uniform;
+  renderer::Accelerator accelerator = renderer::Accelerator::automatic;
   AllocationArguments allocation;
   CheckpointArguments checkpoint;
   RankArguments ranks;

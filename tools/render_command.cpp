@@ -75,7 +75,7 @@ void print_found(const RenderArguments& arguments, const renderer::SceneDescript
   std::fflush(stdout);
 }
 
-reports::RenderRecord make_record(const RenderArguments& arguments,
+reports::RenderRecord make_record(const RenderArguments& arguments, const renderer::Scene& scene,
                                   const renderer::RenderOptions& options,
                                   const renderer::RenderResult& result) {
   const renderer::Rgbd mean = result.film.mean();
@@ -86,6 +86,7 @@ reports::RenderRecord make_record(const RenderArguments& arguments,
   record.sampler = name(options.sampler);
   record.replicates = options.replicates;
   record.light_selection = name(arguments.light_selection);
+  record.accelerator = name(accelerator_of(scene));
   record.samples_per_pixel = result.samples_per_pixel;
   record.seconds = result.seconds;
   record.camera_rays = result.counters.camera_rays;
@@ -114,6 +115,7 @@ std::map<std::string, std::string> metadata(const reports::RenderRecord& record)
       {"sampler", record.sampler},
       {"replicates", std::to_string(record.replicates)},
       {"light_selection", record.light_selection},
+      {"accelerator", record.accelerator},
       {"samples", std::to_string(record.samples_per_pixel)},
       {"seconds", fmt::format("{:.3f}", record.seconds)},
       {"max_depth", std::to_string(record.max_depth)},
@@ -169,6 +171,7 @@ struct Job {
         load_scene(scene_path(arguments.scene), parse_definitions(arguments.definitions),
                    parse_size(arguments.size));
     description.light_selection = arguments.light_selection;
+    description.accelerator = arguments.accelerator;
     return description;
   }
 
@@ -190,7 +193,7 @@ class Outputs {
   /// To be called before the render.
   void attach(Job& job) {
     for (const std::filesystem::path& file : job.description.files) files_.reads(file);
-    checkpoints_.attach(job.description, job.options);
+    checkpoints_.attach(job.description, accelerator_of(job.scene), job.options);
   }
 
   /// @return the exit code
@@ -210,7 +213,7 @@ class Outputs {
 
 int Outputs::write(const Job& job, const renderer::RenderResult& result) {
   if (!has_samples(result.film)) return report_stop(checkpoints_, "before the first sample");
-  reports::RenderRecord record = make_record(arguments_, job.options, result);
+  reports::RenderRecord record = make_record(arguments_, job.scene, job.options, result);
   write_files(job, result, record);
   print_done(arguments_.output, record);
   std::fflush(stdout);  // before what goes to standard error
@@ -264,7 +267,8 @@ int render_in_rank(const RenderArguments& arguments, mpi::Ranks& ranks) {
     if (outputs) outputs->attach(*job);
     require_renderable(job->options);
   });
-  require_one_render(ranks, checkpoint_settings(job->description, job->options));
+  require_one_render(
+      ranks, checkpoint_settings(job->description, accelerator_of(job->scene), job->options));
   const std::unique_ptr<Progress> progress = outputs ? tell_of(arguments, *job) : nullptr;
   const output::StopRequests stops_at_signals;
   const double every = arguments.checkpoint.file.empty() ? 0 : arguments.checkpoint.every;

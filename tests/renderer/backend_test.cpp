@@ -34,12 +34,14 @@ void expect_equal_to_rounding(const Pair& pair, double tolerance) {
 }
 
 template <class Check>
-void for_each_way(const std::string& file, const Check& check) {
-  const SceneDescription description = small(file);
+void for_each_way(const std::string& file, Accelerator accelerator, const Check& check) {
+  SceneDescription description = small(file);
+  description.accelerator = accelerator;
   const Scene scene = make_scene(description);
   for (const Strategy strategy : {Strategy::bsdf, Strategy::light, Strategy::mis}) {
     for (const SamplerType sampler : kSamplers) {
-      SCOPED_TRACE(file + ", " + std::string(name(strategy)) + ", " + std::string(name(sampler)));
+      SCOPED_TRACE(file + ", " + std::string(name(strategy)) + ", " + std::string(name(sampler)) +
+                   ", " + std::string(name(accelerator)));
       check(render_both(scene, options_of(description, strategy, sampler)));
     }
   }
@@ -52,7 +54,9 @@ TEST(Backends, GiveTheSameBitsOnFlatSurfaces) {
        {"bench/scenes/cornell", "analytic/scenes/lights_1000", "analytic/scenes/furnace_cube",
         "analytic/scenes/triangle_light", "analytic/scenes/point_glossy",
         "analytic/scenes/sidewalk", "analytic/scenes/phong_polygon", "analytic/scenes/thin_gap"}) {
-    for_each_way(file, expect_same_bits);
+    for (const Accelerator accelerator : {Accelerator::automatic, Accelerator::embree}) {
+      for_each_way(file, accelerator, expect_same_bits);
+    }
   }
 }
 
@@ -96,7 +100,7 @@ TEST(Backends, GiveTheSameBitsOfASkyAlone) {
   EXPECT_EQ(pair.batched.counters.shadow_rays, 0u);
 }
 
-TEST(Backends, AgreeToRoundingOnSpheres) {
+TEST(Backends, AgreeToRoundingOnSpheresAndToTheBitByBruteForce) {
   // Embree rounds the distance to a sphere differently for one ray and for sixteen: positions
   // differ by 2^-24 of the sphere's size and of the distance. Paths between spheres multiply it by
   // distance over radius at every bounce; of 16 bounces or fewer in these scenes 1e-4 is left.
@@ -104,7 +108,9 @@ TEST(Backends, AgreeToRoundingOnSpheres) {
        {"analytic/scenes/furnace_rough_glass", "analytic/scenes/furnace_blend",
         "analytic/scenes/furnace_coat", "analytic/scenes/furnace_two_sided",
         "analytic/scenes/glass_film", "analytic/scenes/integrating_sphere", "bench/scenes/veach"}) {
-    for_each_way(file, [](const Pair& pair) { expect_equal_to_rounding(pair, 1e-4); });
+    for_each_way(file, Accelerator::embree,
+                 [](const Pair& pair) { expect_equal_to_rounding(pair, 1e-4); });
+    for_each_way(file, Accelerator::brute_force, expect_same_bits);
   }
 }
 

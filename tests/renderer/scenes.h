@@ -31,4 +31,10 @@ inline renderer::SceneDescription closed_sphere(int width, int height,
   return scene;
 }
 
+inline renderer::Scene made_with(renderer::SceneDescription scene,
+                                 renderer::Accelerator accelerator) {
+  scene.accelerator = accelerator;
+  return make_scene(scene);
+}
+
 }  // namespace plumbline::tests

@@ -64,6 +64,7 @@ reports::RenderRecord sample_render() {
   render.sampler = "sobol";
   render.replicates = 4;
   render.light_selection = "power";
+  render.accelerator = "embree";
   render.version = "1.2.3";
   render.max_depth = 7;
   render.width = 192;

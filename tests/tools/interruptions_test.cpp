@@ -144,6 +144,7 @@ TEST(Interruptions, ACheckpointOfAnotherRenderIsRefusedWithWhatIsAnother) {
   refused("--counts 2,1", "counts: kept of 1,1, asked for 2,1");
   refused("--sampler sobol", "sampler: kept of independent, asked for sobol");
   refused("--backend scalar", "backend: kept of batched, asked for scalar");
+  refused("--accelerator embree", "accelerator: kept of brute_force, asked for embree");
   refused("--light-selection power", "light selection: kept of uniform, asked for power");
   refused("--max-depth 1", "maximum depth: kept of 2, asked for 1");
   refused("--roulette 2", "roulette depth: kept of 5, asked for 2");

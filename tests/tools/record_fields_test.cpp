@@ -86,6 +86,7 @@ TEST(RenderFields, AreThoseOfARenderWithoutAnyRandomness) {
                                      {"sampler", "independent"},
                                      {"replicates", 1},
                                      {"light_selection", "power"},
+                                     {"accelerator", "brute_force"},
                                      {"spp", 5},
                                      {"camera_rays", paths},
                                      {"bounce_rays", 2 * paths},
@@ -107,6 +108,7 @@ TEST(RenderFields, AreThoseOfARenderWithoutAnyRandomness) {
                                             {"sampler", "independent"},
                                             {"replicates", "1"},
                                             {"light_selection", "power"},
+                                            {"accelerator", "brute_force"},
                                             {"samples", "5"},
                                             {"max_depth", "3"},
                                             {"non_finite", "0"},
@@ -121,7 +123,7 @@ TEST(RenderFields, CountRaysAndReplicatesOfSobolPoints) {
   const ScratchDirectory scratch;
   Rendered rendered(scratch, kInside + closed_sphere_of("1", "1"),
                     "--strategy mis --heuristic power=3 --counts 4,2 --max-depth 3 --sampler sobol "
-                    "--replicates 3 --spp 6 --size 4x2");
+                    "--replicates 3 --spp 6 --size 4x2 --accelerator embree");
   const int paths = 4 * 2 * 6;
   const Fields expected{{"strategy", "mis 4,2"},
                         {"heuristic", "power=3"},
@@ -129,6 +131,7 @@ TEST(RenderFields, CountRaysAndReplicatesOfSobolPoints) {
                         {"replicates", 3},
                         {"spp", 6},
                         {"light_selection", "uniform"},
+                        {"accelerator", "embree"},
                         {"camera_rays", paths},
                         {"bounce_rays", (4 + 1) * paths},
                         {"shadow_rays", 3 * paths},

@@ -102,6 +102,8 @@ TEST(Misuse, HasExitCodeTwoAndAMessage) {
        R"(--sampler sobel: there is no such sampler; did you mean "sobol"?)"},
       {"render furnace_open -o x.exr --backend gpu",
        "--backend gpu: there is no such backend; supported: batched, scalar"},
+      {"render furnace_open -o x.exr --accelerator gpu",
+       "--accelerator gpu: there is no such accelerator; supported: auto, embree, brute_force"},
       {"render furnace_open -o x.exr --light-selection brightness",
        "--light-selection brightness: there is no such selection; supported: uniform, area, power"},
       {"render furnace_open -o x.exr --replicates 2", "--replicates belongs to --sampler sobol"},

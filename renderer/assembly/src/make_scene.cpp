@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include <plumbline/renderer/brute_force/brute_force.h>
+#include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/core/scene/geometry.h>
 #include <plumbline/renderer/placement/placement.h>
 
@@ -215,6 +217,19 @@ class SceneBuilder {
   std::uint32_t group_ = 0;
 };
 
+/// By the number of primitives alone, never by a clock: a scene has the same bits every time.
+bool wants_brute_force(Accelerator accelerator, const SceneGeometry& geometry) {
+  const bool can = brute_force_can_trace(geometry);
+  if (accelerator == Accelerator::brute_force && !can) {
+    throw InputError(
+        "--accelerator brute_force: the scene has surfaces that single precision cannot hold, "
+        "which are traced in double by embree");
+  }
+  return accelerator == Accelerator::automatic
+             ? can && geometry.primitive_count() <= kMostForBruteForce
+             : accelerator == Accelerator::brute_force;
+}
+
 }  // namespace
 
 Scene make_scene(const SceneDescription& description) {
@@ -229,6 +244,9 @@ Scene make_scene(const SceneDescription& description) {
   for (const ShapeDescription& shape : description.shapes) builder.add(shape);
   for (const PointDescription& point : description.points) builder.add(point);
   parts.geometry->build();
+  if (wants_brute_force(description.accelerator, *parts.geometry)) {
+    parts.geometry->use(make_brute_force(*parts.geometry));
+  }
   parts.environment = builder.add_environment(description);
   parts.lights =
       builder.take_lights(description.light_selection, bounds.radius() * placement.scale);
@@ -236,6 +254,10 @@ Scene make_scene(const SceneDescription& description) {
   parts.camera = Camera(description.camera, placement.center, placement.scale);
   parts.shape_count = description.shapes.size();
   return Scene(std::move(parts));
+}
+
+Accelerator accelerator_of(const Scene& scene) {
+  return scene.geometry().uses_embree() ? Accelerator::embree : Accelerator::brute_force;
 }
 
 }  // namespace plumbline::renderer

@@ -69,6 +69,18 @@ std::string_view name(Backend backend) {
   return backend == Backend::batched ? "batched" : "scalar";
 }
 
+std::string_view name(Accelerator accelerator) {
+  switch (accelerator) {
+    case Accelerator::automatic:
+      return "auto";
+    case Accelerator::embree:
+      return "embree";
+    case Accelerator::brute_force:
+      return "brute_force";
+  }
+  return "?";
+}
+
 std::string describe(const Weighting& weighting) {
   if (!has_parameter(weighting.heuristic)) return std::string(name(weighting.heuristic));
   return fmt::format("{}={}", name(weighting.heuristic), weighting.parameter);

@@ -13,6 +13,8 @@ using embree::kPacket;
 /// million.
 constexpr std::size_t kFewPrimitives = 4096;
 
+constexpr float kNoPart = -1;  // where a ray without a part ends
+
 /// Rays of a packet that have values of their own.
 struct ValidLanes {
   alignas(64) int lanes[kPacket];
@@ -76,9 +78,7 @@ struct CornerLanes {
 }  // namespace
 
 RayPackets::RayPackets(const SceneGeometry& geometry) : geometry_(geometry) {
-  std::size_t count = 0;
-  for (const auto& of_kind : geometry.primitives) count += of_kind.size();
-  if (count <= kFewPrimitives) coherence_ = embree::Coherence::coherent;
+  if (geometry.primitive_count() <= kFewPrimitives) coherence_ = embree::Coherence::coherent;
 }
 
 void RayPackets::surface_hits(const RTCRayHit16& packet, const RayLanes& rays,
@@ -113,9 +113,11 @@ void RayPackets::intersect(const RayLanes& rays, const IndexLanes& order, std::s
   for (std::size_t first = 0; first < count; first += kPacket) {
     const std::size_t size = std::min(kPacket, count - first);
     load(packet.ray, rays, &order[first]);
-    for (float& t_max : packet.ray.tfar) t_max = std::numeric_limits<float>::infinity();
+    for (std::size_t k = 0; k < kPacket; ++k) {
+      packet.ray.tfar[k] = k < size ? std::numeric_limits<float>::infinity() : kNoPart;
+    }
     for (unsigned& id : packet.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect(geometry_.embree_scene(), ValidLanes(size).lanes, packet, coherence_);
+    geometry_.intersect(ValidLanes(size).lanes, packet, coherence_);
     surface_hits(packet, rays, &order[first], first, size, hits);
   }
 }
@@ -127,9 +129,10 @@ void RayPackets::occluded(const RayLanes& rays, const Lanes<float>& t_max, const
   for (std::size_t first = 0; first < count; first += kPacket) {
     const std::size_t size = std::min(kPacket, count - first);
     load(packet, rays, &order[first]);
-    for (std::size_t k = 0; k < kPacket; ++k) packet.tfar[k] = t_max[order[first + k]];
-    embree::occluded(geometry_.embree_scene(), ValidLanes(size).lanes, packet,
-                     embree::Coherence::none);
+    for (std::size_t k = 0; k < kPacket; ++k) {
+      packet.tfar[k] = k < size ? t_max[order[first + k]] : kNoPart;
+    }
+    geometry_.occluded(ValidLanes(size).lanes, packet);
     for (std::size_t k = 0; k < kPacket; ++k) blocked[first + k] = packet.tfar[k] < 0 ? 1 : 0;
   }
 }

@@ -157,6 +157,11 @@ SurfaceHit SceneGeometry::surface_hit(const Ray& ray, const PrimitiveHit& hit) c
 }
 
 std::optional<SurfaceHit> SceneGeometry::intersect(const Ray& ray) const {
+  if (engine_) {
+    const std::optional<PrimitiveHit> hit = engine_->intersect(ray);
+    if (!hit) return std::nullopt;
+    return surface_hit(ray, *hit);
+  }
   RTCRayHit ray_hit;
   ray_hit.ray = embree_ray(ray);
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -167,9 +172,27 @@ std::optional<SurfaceHit> SceneGeometry::intersect(const Ray& ray) const {
 }
 
 bool SceneGeometry::occluded(const Ray& ray) const {
+  if (engine_) return engine_->occluded(ray);
   RTCRay r = embree_ray(ray);
   embree::occluded(scene_, r);
   return r.tfar < 0;
+}
+
+void SceneGeometry::intersect(const int (&valid)[embree::kPacket], RTCRayHit16& rays,
+                              embree::Coherence coherence) const {
+  if (engine_) return engine_->intersect(rays);
+  embree::intersect(scene_, valid, rays, coherence);
+}
+
+void SceneGeometry::occluded(const int (&valid)[embree::kPacket], RTCRay16& rays) const {
+  if (engine_) return engine_->occluded(rays);
+  embree::occluded(scene_, valid, rays, embree::Coherence::none);
+}
+
+std::size_t SceneGeometry::primitive_count() const {
+  std::size_t count = 0;
+  for (const auto& of_kind : primitives) count += of_kind.size();
+  return count;
 }
 
 }  // namespace plumbline::renderer

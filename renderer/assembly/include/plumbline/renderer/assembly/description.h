@@ -36,6 +36,13 @@ struct IntegratorDescription {
   int rr_depth = 5;  ///< Russian roulette from this depth on (Mitsuba's default)
 };
 
+/// What finds where rays meet surfaces. They agree but for rounding (docs/conventions.md).
+enum class Accelerator {
+  automatic,   ///< brute_force where it can and is faster (kMostForBruteForce), else embree
+  embree,      ///< Embree's tree
+  brute_force  ///< sixteen rays at a time against all primitives
+};
+
 struct SceneDescription {
   std::filesystem::path file;
   std::vector<std::filesystem::path> files;       ///< all that were read: this, meshes, images
@@ -50,6 +57,7 @@ struct SceneDescription {
   std::optional<EnvironmentMap> environment_map;  ///< excludes the two above
   std::vector<PointDescription> points;
   LightSelection light_selection = LightSelection::uniform;
+  Accelerator accelerator = Accelerator::automatic;
 };
 
 /// All geometry is moved in double so that the centre of its bounding box is the origin, and only
@@ -59,7 +67,11 @@ struct SceneDescription {
 /// double (ExactShape).
 ///
 /// @throws InputError naming the shapes that do not fit into one picture in single precision, or
-///         where Embree refuses the geometry; std::invalid_argument without BSDFs
+///         where Embree refuses the geometry, or where brute force is asked for and something has
+///         to be traced in double; std::invalid_argument without BSDFs
 Scene make_scene(const SceneDescription& description);
+
+/// What a scene was made with: never `automatic`.
+Accelerator accelerator_of(const Scene& scene);
 
 }  // namespace plumbline::renderer

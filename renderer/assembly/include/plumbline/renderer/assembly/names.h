@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
 #include <plumbline/renderer/core/light/light.h>
 #include <plumbline/renderer/core/mis/heuristics.h>
@@ -23,6 +24,8 @@ inline constexpr std::array kSamplers{SamplerType::independent, SamplerType::sob
 inline constexpr std::array kLightSelections{LightSelection::uniform, LightSelection::area,
                                              LightSelection::power};
 inline constexpr std::array kBackends{Backend::batched, Backend::scalar};
+inline constexpr std::array kAccelerators{Accelerator::automatic, Accelerator::embree,
+                                          Accelerator::brute_force};
 
 /// "bsdf", "light", "uniform", "mis", "one-sample", "average".
 std::string_view name(Strategy strategy);
@@ -34,6 +37,8 @@ std::string_view name(SamplerType sampler);
 std::string_view name(LightSelection selection);
 /// "batched", "scalar".
 std::string_view name(Backend backend);
+/// "auto", "embree", "brute_force".
+std::string_view name(Accelerator accelerator);
 
 /// The value that the command line calls `text`.
 ///

@@ -6,12 +6,15 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <plumbline/renderer/core/math.h>
 #include <plumbline/renderer/core/scene/embree.h>
 #include <plumbline/renderer/core/scene/exact_shape.h>
+#include <plumbline/renderer/core/scene/ray_engine.h>
 #include <plumbline/renderer/core/scene/surface_hit.h>
 
 namespace plumbline::renderer {
@@ -45,12 +48,6 @@ struct Primitive {
 
 /// Embree geometry ids, in the order of attachment.
 enum GeometryId : unsigned { kSpheres, kRectangles, kDisks, kTriangles, kExact, kGeometryKinds };
-
-/// Where Embree says that a ray meets a primitive.
-struct PrimitiveHit {
-  unsigned kind, index;
-  float u, v, t;
-};
 
 inline bool is_flat(unsigned kind) { return kind == kTriangles || kind == kRectangles; }
 
@@ -102,8 +99,21 @@ class SceneGeometry {
   /// @throws InputError where Embree refuses them, std::bad_alloc
   void build();
 
+  /// From now on all rays are answered by this, and none by Embree. After `build`.
+  void use(std::unique_ptr<RayEngine> engine) { engine_ = std::move(engine); }
+  bool uses_embree() const { return engine_ == nullptr; }
+
   std::optional<SurfaceHit> intersect(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
+
+  /// Sixteen rays at once, as Embree's functions of that name take them.
+  /// @param valid  −1 for each ray that takes part; 0 for others, whose `tfar` is negative
+  void intersect(const int (&valid)[embree::kPacket], RTCRayHit16& rays,
+                 embree::Coherence coherence) const;
+  void occluded(const int (&valid)[embree::kPacket], RTCRay16& rays) const;
+
+  /// How many surfaces rays are traced against.
+  std::size_t primitive_count() const;
 
   Corners corners(unsigned kind, std::size_t index) const {
     const bool triangle = kind == kTriangles;
@@ -126,6 +136,7 @@ class SceneGeometry {
 
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
+  std::unique_ptr<RayEngine> engine_;
 };
 
 }  // namespace plumbline::renderer
