@@ -9,7 +9,9 @@ namespace plumbline::tests {
 
 /// Bounds of what single precision may do to an answer, in units of 2⁻²⁴ of the lengths that enter
 /// it (judge.cpp has them): of a distance, and of where a round surface ends. Of flat surfaces the
-/// edges are exact but for double precision.
+/// edges are exact but for double precision. The worst case: a plane's distance has 5 roundings in
+/// its numerator and 4 in the cosine; a sphere's middle 9, its half chord 5 more; a disk's outline
+/// 6 beside those of its distance. Measured over 8e7 rays: 1.9.
 inline constexpr double kMostUlps = 16;
 
 /// An answer; `kind` is RTC_INVALID_GEOMETRY_ID for a miss.
