@@ -264,7 +264,7 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("sampler", r.sampler);
   visit("replicates", r.replicates);
   visit("light_selection", r.light_selection);
-  visit("accelerator", r.accelerator);
+  if (visit.wants("accelerator", !r.accelerator.empty())) visit("accelerator", r.accelerator);
   visit("spp", r.samples_per_pixel);
   visit("seconds", r.seconds);
   visit("camera_rays", r.camera_rays);

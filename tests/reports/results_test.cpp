@@ -184,6 +184,18 @@ TEST(RenderRecord, ImageIsFoundAgainAfterTheDirectoryHasMoved) {
             scratch / "new" / "a.exr");
 }
 
+TEST(RenderRecord, FromBeforeThereWereAcceleratorsIsReadAsItStands) {
+  const ScratchDirectory scratch;
+  std::string text = to_json(sample_render());
+  const std::string field = R"("accelerator":"embree",)";
+  ASSERT_NE(text.find(field), std::string::npos) << text;
+  text.erase(text.find(field), field.size());
+  reports::RenderRecord expected = sample_render();
+  expected.accelerator.clear();
+  expected.image = scratch / "images/a.exr";
+  EXPECT_EQ(reports::read_render_record(scratch.write("a.json", text)), expected);
+}
+
 TEST(Summary, CountsEachKindOfOutcomeOnce) {
   using verify::Verdict;
   Results results;

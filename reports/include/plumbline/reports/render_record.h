@@ -17,7 +17,7 @@ struct RenderRecord {
   std::string sampler;           ///< "independent", "sobol"
   std::uint64_t replicates = 1;  ///< independent parts that the samples fall into
   std::string light_selection;   ///< "uniform", "area", "power"
-  std::string accelerator;       ///< "embree", "brute_force"
+  std::string accelerator;       ///< "embree", "brute_force"; empty in records of before
   std::uint64_t samples_per_pixel = 0;
   double seconds = 0;  ///< wall clock, rendering only
   std::uint64_t camera_rays = 0;
