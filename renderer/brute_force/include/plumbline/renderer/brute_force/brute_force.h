@@ -8,8 +8,8 @@
 namespace plumbline::renderer {
 
 /// Up to here sixteen rays at a time against all primitives are faster than a tree. Measured with
-/// `./run bench --only accelerators`: by AVX-512 always up to 128, by AVX2, which takes 1.6 times as
-/// long, up to about this many.
+/// `./run bench --only accelerators`: by AVX-512 always up to 128, by AVX2, which takes 1.6 times
+/// as long, up to about this many.
 inline constexpr std::size_t kMostForBruteForce = 64;
 
 /// Whether every surface of a scene is one that sixteen rays can be held against in single
