@@ -7,6 +7,7 @@
 #include <exception>
 #include <utility>
 
+#include <plumbline/merging/sample_range.h>
 #include <plumbline/output/failure.h>
 #include <plumbline/output/stop.h>
 #include <plumbline/renderer/assembly/names.h>
@@ -24,7 +25,7 @@ bool fits(const renderer::RenderState& state, const renderer::RenderState& fresh
          state.bsdf_counts.size() == fresh.bsdf_counts.size();
 }
 
-bool is_of(const renderer::RenderState& state, const Shard& shard) {
+bool is_of(const renderer::RenderState& state, const merging::Shard& shard) {
   for (std::size_t i = 0; i < state.drawn.size(); ++i) {
     if (output::is_here(state.drawn[i]) != shard.has(i)) return false;
   }
@@ -97,6 +98,7 @@ output::CheckpointSettings checkpoint_settings(const renderer::SceneDescription&
       {"accelerator", std::string(name(accelerator))},
       {"error", fmt::format("{}", options.relative_error)},
       {"seed", std::to_string(options.seed)},
+      {"first sample", std::to_string(options.first_sample)},
       {"version", PLUMBLINE_VERSION},
   };
   if (options.allocation) add_allocation(options, settings);
@@ -114,7 +116,7 @@ void Checkpoints::attach(const renderer::SceneDescription& scene, renderer::Acce
   options.interruptions.stop = [] { return output::stop_signal() != 0; };
   if (arguments_.file.empty() && arguments_.resume.empty()) return;
   settings_ = checkpoint_settings(scene, accelerator, options);
-  const Shard shard = parse_shard(arguments_.shard);
+  const merging::Shard shard = merging::parse_shard(arguments_.shard);
   const auto state = std::make_shared<renderer::RenderState>(
       fresh_state(scene.camera.width, scene.camera.height, options));
   if (arguments_.resume.empty()) {

@@ -11,6 +11,7 @@
 #include <plumbline/renderer/core/errors.h>
 
 #include "render_values.h"
+#include "sample_range_option.h"
 
 namespace plumbline::tools {
 namespace {
@@ -147,11 +148,13 @@ renderer::RenderOptions render_options(const RenderArguments& arguments,
       other_limit ? kMaxSamples : static_cast<std::uint32_t>(scene.samples_per_pixel));
   options.replicates = replicates_of(arguments);
   set_allocation(arguments.allocation, arguments.samples.has_value(), options);
+  check_first_sample(options);
   return options;
 }
 
 void add_render_options(options::Command& command, RenderArguments& arguments) {
   add_basic_options(command, arguments);
+  add_sample_range_option(command, arguments.options);
   add_allocation_options(command, arguments.allocation);
   add_checkpoint_options(command, arguments.checkpoint);
   add_rank_options(

@@ -75,7 +75,7 @@ class RankedRender {
     }
     const auto signal = static_cast<int>(ranks_.first_says(static_cast<std::uint64_t>(signal_)));
     if (signal != 0) output::ask_to_stop(signal);
-    renderer::RenderResult result{{renderer::Film(0, 0), {}, 0, 0, signal != 0}, {}};
+    renderer::RenderResult result{{renderer::Film(0, 0), {}, 0, 0, signal != 0, {}}, {}};
     if (ranks_.is_first()) complete(result);
     return result;
   }
@@ -206,6 +206,7 @@ class RankedRender {
     result.seconds = whole_.seconds;
     result.stopped = result.stopped && result.samples_per_pixel < options_.samples_per_pixel;
     result.film = std::move(whole_.film);
+    result.drawn = std::move(whole_.drawn);
     result.bsdf_counts = std::move(whole_.bsdf_counts);
   }
 

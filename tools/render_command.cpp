@@ -30,6 +30,7 @@
 #include "render_by_ranks.h"
 #include "render_numbers.h"
 #include "render_values.h"
+#include "sample_range_option.h"
 #include "scene_argument.h"
 
 namespace plumbline::tools {
@@ -88,6 +89,8 @@ reports::RenderRecord make_record(const RenderArguments& arguments, const render
   record.light_selection = name(arguments.light_selection);
   record.accelerator = name(accelerator_of(scene));
   record.samples_per_pixel = result.samples_per_pixel;
+  record.first_sample = options.first_sample;
+  record.end_sample = end_sample(options, result);
   record.seconds = result.seconds;
   record.camera_rays = result.counters.camera_rays;
   record.bounce_rays = result.counters.bounce_rays;
@@ -227,6 +230,9 @@ void Outputs::write_files(const Job& job, const renderer::RenderResult& result,
   if (!output_.is_device()) record.image = arguments_.output;
   renderer::Image image = to_image(result.film);
   image.metadata = metadata(record);
+  image.metadata.merge(
+      origin(checkpoint_settings(job.description, accelerator_of(job.scene), job.options),
+             job.options, result, arguments_.checkpoint.shard));
   if (!arguments_.checkpoint.shard.empty()) image.metadata["shard"] = arguments_.checkpoint.shard;
   if (result.stopped) image.metadata["stopped"] = stopped_at(job.options, result);
   output_.fill([&](const auto& path) { write_exr(path, image); });

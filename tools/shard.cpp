@@ -1,11 +1,8 @@
 #include "shard.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
-#include <system_error>
-#include <utility>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <plumbline/output/checkpoint.h>
@@ -60,22 +57,6 @@ renderer::RenderState empty_part(const Shard& shard, const renderer::RenderState
 }
 
 }  // namespace
-
-Shard parse_shard(const std::string& text) {
-  Shard shard;
-  if (text.empty()) return shard;
-  const char* end = text.data() + text.size();
-  const auto number = std::from_chars(text.data(), end, shard.number);
-  if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
-    const auto count = std::from_chars(number.ptr + 1, end, shard.count);
-    if (count.ec == std::errc() && count.ptr == end && shard.number >= 1 &&
-        shard.number <= shard.count) {
-      return shard;
-    }
-  }
-  throw renderer::InputError(
-      fmt::format("--shard {}: must read I/N, the part I from 1 to N of N", text));
-}
 
 void keep_only(const Shard& shard, renderer::RenderState& state) {
   for (std::size_t i = 0; i < state.drawn.size(); ++i) {

@@ -1,24 +1,12 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-
+#include <plumbline/merging/sample_range.h>
 #include <plumbline/renderer/loop/render_state.h>
 
+/// States of the pixels of a shard.
 namespace plumbline::tools {
 
-/// A part of the pixels of an image. Whole pixels are dealt out, in turn: no net of points is ever
-/// cut, no sum is split, and parts of an image with dear places in it take as long as each other.
-struct Shard {
-  std::uint32_t number = 1, count = 1;  ///< from 1
-
-  bool has(std::size_t pixel) const { return pixel % count == number - 1; }
-};
-
-/// "I/N"; all for an empty text.
-/// @throws renderer::InputError for what is no part
-Shard parse_shard(const std::string& text);
+using merging::Shard;
 
 /// Leaves the pixels of other parts to others.
 void keep_only(const Shard& shard, renderer::RenderState& state);

@@ -221,7 +221,7 @@ TEST(Merge, RefusesWhatIsNoSum) {
   };
   refused("merge 1 2 -o x.exr", "16 of 48 pixels are in none of the checkpoints");
   refused("merge 1 2 3 2 -o x.exr", "2: holds samples of the seed 0 that 2 holds too");
-  refused("merge 1 whole.exr -o x.exr", "whole.exr: is no checkpoint");
+  refused("merge 1 whole.exr -o x.exr", "1: is no OpenEXR image, as others are");
   refused("merge 1 2 3 -o 3", "is the same file as");
   refused(other + "--resume 1 --shard 2/3", "1: is of another --shard");
   refused(other + "--resume 1", "1: is of another --shard");

@@ -2,6 +2,7 @@
 #include <plumbline_tests/support.h>
 
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <plumbline/output/checkpoint.h>
 #include <plumbline/renderer/image_io/exr.h>
 
 #include "command_line.h"
@@ -77,7 +79,7 @@ TEST(RenderFields, AreThoseOfARenderWithoutAnyRandomness) {
       scratch,
       R"(<default name="size" value="2"/>)" + kInside + closed_sphere_of("4 8 16", "$size"),
       "--strategy bsdf --max-depth 3 --spp 5 --size 8x4 --seed 7 --threads 3 -D size=1.5 "
-      "--light-selection power");
+      "--light-selection power --first-sample 6");
   const int paths = 8 * 4 * 5;
   EXPECT_EQ(rendered.record, (Fields{{"format", "plumbline.render/1"},
                                      {"scene", "scene.xml"},
@@ -88,6 +90,8 @@ TEST(RenderFields, AreThoseOfARenderWithoutAnyRandomness) {
                                      {"light_selection", "power"},
                                      {"accelerator", "brute_force"},
                                      {"spp", 5},
+                                     {"first_sample", 6},
+                                     {"end_sample", 11},
                                      {"camera_rays", paths},
                                      {"bounce_rays", 2 * paths},
                                      {"shadow_rays", 0},
@@ -102,7 +106,13 @@ TEST(RenderFields, AreThoseOfARenderWithoutAnyRandomness) {
                                      {"threads", 3},
                                      {"image", "image.exr"},
                                      {"parameters", {{"size", "1.5"}}}}));
+  const std::uint64_t content = output::content_hash({scratch / "scene.xml"}, {{"size", "1.5"}});
   EXPECT_EQ(rendered.image.metadata, (Texts{{"scene", "scene.xml"},
+                                            {"scene_content", fmt::format("{:016x}", content)},
+                                            {"holds", "7:6-11"},
+                                            {"counts", "1,1"},
+                                            {"light_probability", "0.5"},
+                                            {"roulette_depth", "5"},
                                             {"strategy", "bsdf"},
                                             {"seed", "7"},
                                             {"sampler", "independent"},
@@ -139,6 +149,7 @@ TEST(RenderFields, CountRaysAndReplicatesOfSobolPoints) {
   for (const auto& [name, value] : expected) EXPECT_EQ(rendered.record.at(name), value) << name;
   EXPECT_EQ(rendered.image.metadata.at("heuristic"), "power=3");
   EXPECT_EQ(rendered.image.metadata.at("replicates"), "3");
+  EXPECT_EQ(rendered.image.metadata.at("counts"), "4,2");
   EXPECT_EQ(rendered.image.count.at(0), 3);
 }
 
@@ -155,10 +166,10 @@ TEST(RenderFields, CountSamplesThatCannotBeMadeOrAreNotFinite) {
   // seen, a square of 2e-5 m, it is 3e39 at least.
   const Rendered infinite(scratch, above + R"(<shape type="rectangle"/><emitter type="point">
       <point name="position" x="0" y="0" z="1e-5"/><rgb name="intensity" value="1e30"/></emitter>)",
-                          "--strategy light --max-depth 2 --spp 3 --size 2x2", 1);
+                          "--strategy light --max-depth 2 --spp 3 --size 2x2 --first-sample 5", 1);
   EXPECT_EQ(infinite.error,
             "plumbline: 12 samples were NOT FINITE and left out of the image, which is written: "
-            "the first is sample 0 of pixel (0, 0)\n");
+            "the first is sample 5 of pixel (0, 0)\n");
   EXPECT_EQ(infinite.record.at("non_finite"), 2 * 2 * 3);
   EXPECT_EQ(infinite.image.metadata.at("non_finite"), "12");
   EXPECT_EQ(infinite.image.count.at(0), 0);

@@ -51,6 +51,9 @@ void check_allocation(const RenderOptions& options) {
   if (options.seconds > 0 || options.relative_error > 0) {
     throw InputError("sample allocation needs a sample count, not a limit on time or error");
   }
+  if (options.first_sample > 0) {
+    throw InputError("sample allocation learns from the first sample on: it cannot begin later");
+  }
   if (allocation.iterations < 1 || options.samples_per_pixel / 2 < allocation.iterations) {
     throw InputError("sample allocation needs two samples per pixel in every iteration");
   }
@@ -103,7 +106,8 @@ RenderResult render_allocated(const Scene& scene, const RenderOptions& options) 
     stopped = slice.stops() && !is_done;
     if (options.interruptions.keep) options.interruptions.keep(state, stopped || is_done);
   }
-  return {{std::move(state.film), state.counters, state.least_drawn(), state.seconds, stopped},
+  return {{std::move(state.film), state.counters, state.least_drawn(), state.seconds, stopped,
+           std::move(state.drawn)},
           std::move(state.bsdf_counts)};
 }
 

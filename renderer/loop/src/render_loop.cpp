@@ -61,7 +61,8 @@ class RenderLoop {
     }
     stopped = stopped && done < options_.samples_per_pixel;
     keep(true);
-    return {std::move(state_.film), state_.counters, done, state_.seconds, stopped};
+    return {std::move(state_.film), state_.counters, done,
+            state_.seconds,         stopped,         std::move(state_.drawn)};
   }
 
  private:
@@ -142,7 +143,8 @@ class RenderLoop {
   void render_pixel(int x, int y, std::uint32_t target, PixelSampler& sampler) {
     const std::size_t pixel = state_.film.index(x, y);
     const std::uint32_t replicates = dealt().empty() ? 1 : options_.replicates;
-    for (std::uint32_t& s = state_.drawn[pixel]; s < target; ++s) {
+    for (std::uint32_t& drawn = state_.drawn[pixel]; drawn < target; ++drawn) {
+      const std::uint32_t s = options_.first_sample + drawn;
       const std::uint64_t net = pixel * replicates + s % replicates;
       PixelMoments& moments = dealt().empty() ? state_.film.pixels()[pixel] : dealt()[net];
       sampler.sample(x, y, net, s / replicates, moments);

@@ -73,6 +73,19 @@ class Writer {
   Hash hash_;
 };
 
+/// A file that is read, and its size.
+struct OpenFile {
+  explicit OpenFile(const fs::path& path) : stream(path, std::ios::binary) {
+    if (!stream) throw_errno(path.string(), "cannot be read", errno);
+    std::error_code error;
+    bytes = fs::file_size(path, error);
+    if (error) throw_errno(path.string(), "cannot be read", error.value());
+  }
+
+  std::ifstream stream;
+  std::uintmax_t bytes = 0;
+};
+
 class Reader {
  public:
   /// @param name   for messages
@@ -138,6 +151,7 @@ struct Counts {
 };
 
 CheckpointSettings read_settings(Reader& in) {
+  if (in.line() != kFormat) in.refuse("is no checkpoint of this version of the format");
   CheckpointSettings settings;
   for (std::string line = in.line(); !line.empty(); line = in.line()) {
     const std::size_t equals = line.find('=');
@@ -201,14 +215,15 @@ void write_checkpoint(const fs::path& path, const CheckpointSettings& settings,
   if (!file) throw renderer::MachineError(path.string() + ": cannot be written; is the disk full?");
 }
 
+CheckpointSettings read_checkpoint_settings(const fs::path& path) {
+  OpenFile file(path);
+  Reader in(file.stream, path.string(), file.bytes);
+  return read_settings(in);
+}
+
 Checkpoint read_checkpoint(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw_errno(path.string(), "cannot be read", errno);
-  std::error_code error;
-  const std::uintmax_t bytes = fs::file_size(path, error);
-  if (error) throw_errno(path.string(), "cannot be read", error.value());
-  Reader in(file, path.string(), bytes);
-  if (in.line() != kFormat) in.refuse("is no checkpoint of this version of the format");
+  OpenFile file(path);
+  Reader in(file.stream, path.string(), file.bytes);
   Checkpoint checkpoint;
   checkpoint.settings = read_settings(in);
   const auto counts = in.value<Counts>();

@@ -41,6 +41,11 @@ std::string bytes_of_state(const renderer::RenderState& state);
 /// @throws renderer::InputError for what `bytes_of_state` does not make
 renderer::RenderState state_of_bytes(const std::string& bytes);
 
+/// What a checkpoint is of, before it is read as a whole: whether it is torn is not seen.
+///
+/// @throws renderer::InputError for what is no checkpoint
+CheckpointSettings read_checkpoint_settings(const std::filesystem::path& path);
+
 /// @throws renderer::InputError with each setting that is another
 void require_same(const std::filesystem::path& path, const CheckpointSettings& kept,
                   const CheckpointSettings& given);

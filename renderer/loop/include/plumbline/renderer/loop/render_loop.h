@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include <plumbline/renderer/core/render/film.h>
 #include <plumbline/renderer/core/render/path.h>
@@ -16,8 +17,9 @@ namespace plumbline::renderer {
 /// first.
 struct SamplingOptions {
   std::uint32_t samples_per_pixel = 16;  ///< upper limit, ≥ 1
-  double seconds = 0;                    ///< time limit [s]; 0: none
-  double relative_error = 0;             ///< stop at this Film::relative_error(); 0: none
+  std::uint32_t first_sample = 0;  ///< its number; Sobol: a multiple of what is drawn, no cut net
+  double seconds = 0;              ///< time limit [s]; 0: none
+  double relative_error = 0;       ///< stop at this Film::relative_error(); 0: none
   std::uint64_t seed = 0;
   SamplerType sampler = SamplerType::independent;
   /// Sobol only: independently scrambled parts that the samples of a pixel are dealt out to, ≥ 1.
@@ -72,6 +74,7 @@ struct LoopResult {
   std::uint32_t samples_per_pixel = 0;  ///< drawn, of every pixel
   double seconds = 0;
   bool stopped = false;  ///< before the limits were reached: pixels may have more samples
+  std::vector<std::uint32_t> drawn;  ///< RenderState's
 };
 
 /// A tile holds at least so many samples, for samplers that work on many at once.

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <plumbline/merging/merge.h>
+#include <plumbline/output/checkpoint.h>
+
+#include "parts.h"
+
+namespace plumbline::merging {
+namespace {
+
+constexpr const char* kSeed = "seed";
+constexpr const char* kFirst = "first sample";
+
+std::uint64_t setting_number(const std::string& file, const output::CheckpointSettings& settings,
+                             const char* name) {
+  const auto found = settings.find(name);
+  if (const auto number = whole_number(found == settings.end() ? "" : found->second)) {
+    return *number;
+  }
+  throw renderer::InputError(file + ": does not hold what it says");
+}
+
+/// The pixels that are here, which are those of one shard.
+Shard shard_of(const std::vector<std::uint32_t>& drawn) {
+  const auto first = std::find_if(drawn.begin(), drawn.end(), output::is_here);
+  if (first == drawn.end()) return {};
+  const auto next = std::find_if(first + 1, drawn.end(), output::is_here);
+  const auto before = static_cast<std::uint32_t>(first - drawn.begin());
+  if (next == drawn.end()) return {before + 1, static_cast<std::uint32_t>(drawn.size())};
+  return {before + 1, static_cast<std::uint32_t>(next - first)};
+}
+
+/// What has been put together so far.
+class CheckpointSum {
+ public:
+  void add(Part& part) {
+    output::Checkpoint checkpoint = output::read_checkpoint(part.file);
+    checkpoint.settings.erase(kSeed);
+    checkpoint.settings.erase(kFirst);
+    renderer::RenderState& state = checkpoint.state;
+    if (parts_.empty()) {
+      settings_ = std::move(checkpoint.settings);
+      film_ = renderer::Film(state.film.width(), state.film.height());
+      samples_.resize(film_.pixels().size());
+    } else {
+      output::require_same(part.file, checkpoint.settings, settings_);
+    }
+    SampleRange& range = part.holds.front();
+    if (parts_.empty() || parts_.back().holds.front().seed != range.seed) end_seed();
+    if (state.drawn.size() != samples_.size() ||
+        (!of_seed_.empty() && state.replicates.size() != replicates_.replicates.size())) {
+      throw renderer::InputError(part.file + ": does not hold what it says");
+    }
+    require_other_samples(part, state.drawn);
+    add_moments(state);
+    std::uint32_t most = 0;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if (!output::is_here(state.drawn[i])) continue;
+      samples_[i] += state.drawn[i];
+      most = std::max(most, state.drawn[i]);
+    }
+    range.end = range.first + most;
+    range.shard = shard_of(state.drawn);
+    of_seed_.push_back(std::move(state.drawn));
+    parts_.push_back(part);
+  }
+
+  renderer::Image image() {
+    end_seed();
+    require_samples(samples_, "checkpoints");
+    renderer::Image image = to_image(film_);
+    image.metadata = metadata();
+    return image;
+  }
+
+ private:
+  /// The same seed gives the same samples: those of one pixel count once.
+  void require_other_samples(const Part& part, const std::vector<std::uint32_t>& drawn) const {
+    const std::uint64_t first = part.holds.front().first;
+    for (std::size_t k = 0; k < of_seed_.size(); ++k) {
+      const Part& other = parts_[parts_.size() - of_seed_.size() + k];
+      const std::uint64_t other_first = other.holds.front().first;
+      for (std::size_t i = 0; i < drawn.size(); ++i) {
+        const std::uint32_t here = drawn[i], there = of_seed_[k][i];
+        if (!output::is_here(here) || !output::is_here(there)) continue;
+        if (first >= other_first + there || other_first >= first + here) continue;
+        throw renderer::InputError(fmt::format("{}: holds samples of the seed {} that {} holds too",
+                                               part.file, part.holds.front().seed, other.file));
+      }
+    }
+  }
+
+  /// Points of one scramble, whichever part has them, are one replicate: its mean is what says
+  /// anything of the error.
+  void add_moments(renderer::RenderState& state) {
+    if (state.replicates.empty()) {
+      for (std::size_t i = 0; i < samples_.size(); ++i) {
+        film_.pixels()[i].merge(state.film.pixels()[i]);
+      }
+    } else if (replicates_.replicates.empty()) {
+      replicates_.film = std::move(state.film);
+      replicates_.replicates = std::move(state.replicates);
+      replicates_.drawn.resize(samples_.size());
+    } else {
+      for (std::size_t i = 0; i < state.replicates.size(); ++i) {
+        replicates_.replicates[i].merge(state.replicates[i]);
+      }
+    }
+  }
+
+  /// No more replicates of this seed will come.
+  void end_seed() {
+    for (std::size_t i = 0; i < replicates_.drawn.size(); ++i) {
+      replicates_.sum_replicates(i);
+      film_.pixels()[i].merge(replicates_.film.pixels()[i]);
+    }
+    replicates_ = {};
+    of_seed_.clear();
+  }
+
+  std::map<std::string, std::string> metadata() const {
+    const std::vector<SampleRange> ranges = all_ranges(parts_);
+    std::map<std::string, std::string> data = {{"seed", seeds_of(ranges)},
+                                               {"holds", to_text(ranges)},
+                                               {"samples", least_samples(samples_)},
+                                               {"merged", std::to_string(parts_.size())},
+                                               {"non_finite", std::to_string(film_.non_finite())}};
+    const std::pair<const char*, const char*> names[] = {
+        {"strategy", "strategy"},       {"heuristic", "heuristic"},
+        {"sampler", "sampler"},         {"replicates", "replicates"},
+        {"version", "version"},         {"light_selection", "light selection"},
+        {"accelerator", "accelerator"}, {"max_depth", "maximum depth"}};
+    for (const auto& [name, setting] : names) data[name] = settings_.at(setting);
+    data.merge(header_of(settings_));
+    return data;
+  }
+
+  output::CheckpointSettings settings_;
+  std::vector<Part> parts_;
+  renderer::Film film_{0, 0};
+  std::vector<std::uint64_t> samples_;
+  renderer::RenderState replicates_;                 ///< of the seed that is under way
+  std::vector<std::vector<std::uint32_t>> of_seed_;  ///< what its parts have drawn
+};
+
+}  // namespace
+
+std::map<std::string, std::string> header_of(const output::CheckpointSettings& settings) {
+  std::map<std::string, std::string> data;
+  for (std::string name :
+       {"scene content", "roulette depth", "counts", "light probability", "allocation"}) {
+    const auto found = settings.find(name);
+    if (found == settings.end()) continue;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    data[name] = found->second;
+  }
+  return data;
+}
+
+renderer::Image merge_checkpoints(std::vector<std::string> files) {
+  std::vector<Part> parts;
+  for (std::string& file : files) {
+    const output::CheckpointSettings settings = output::read_checkpoint_settings(file);
+    const SampleRange range{
+        setting_number(file, settings, kSeed), setting_number(file, settings, kFirst), 0, {}};
+    parts.push_back({std::move(file), {range}});
+  }
+  sort_parts(parts);
+  CheckpointSum sum;
+  for (Part& part : parts) sum.add(part);
+  return sum.image();
+}
+
+}  // namespace plumbline::merging
