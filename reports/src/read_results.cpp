@@ -91,9 +91,22 @@ void add_document(Results& results, const std::string& text, const fs::path& dir
   throw ResultsError(file.string() + where + ": " + error.what());
 }
 
-/// @param records  how many have been read, in other files too
+/// Records of all files together.
+class RecordCount {
+ public:
+  explicit RecordCount(std::size_t most) : most_(most) {}
+
+  void add_one() {
+    if (++count_ <= most_) return;
+    throw BudgetError("more than " + std::to_string(most_) + " records: split them");
+  }
+
+ private:
+  std::size_t most_, count_ = 0;
+};
+
 void read_lines(Results& results, const fs::path& file, const std::string& text,
-                std::size_t& records) {
+                RecordCount& records) {
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
@@ -102,9 +115,7 @@ void read_lines(Results& results, const fs::path& file, const std::string& text,
     begin = end + 1;
     if (line.empty()) continue;
     try {
-      if (++records > kMaxRecords) {
-        throw BudgetError("more than " + std::to_string(kMaxRecords) + " records: split them");
-      }
+      records.add_one();
       add_document(results, line, file.parent_path());
     } catch (const BudgetError& error) {
       refuse(file, number, error);
@@ -115,9 +126,11 @@ void read_lines(Results& results, const fs::path& file, const std::string& text,
 }
 
 /// A whole file as one document; those that state no format belong to somebody else.
-void read_single(Results& results, const fs::path& file, const std::string& text) {
+void read_single(Results& results, const fs::path& file, const std::string& text,
+                 RecordCount& records) {
   try {
     if (detail::format_of(Json::parse(text)).empty()) return;
+    records.add_one();
     add_document(results, text, file.parent_path());
   } catch (const BudgetError&) {
     throw;
@@ -136,7 +149,7 @@ bool holds_nothing(const Results& results) {
 
 }  // namespace
 
-Results read_results(const fs::path& directory) {
+Results read_results(const fs::path& directory, std::size_t most_records) {
   std::error_code ignored;
   if (!fs::exists(directory, ignored)) {
     throw ResultsError(directory.string() + ": no such directory");
@@ -147,14 +160,14 @@ Results read_results(const fs::path& directory) {
   Results results;
   find_record_files(directory, results);
   std::sort(results.files.begin(), results.files.end());
-  std::size_t records = 0;
+  RecordCount records(most_records);
   for (const fs::path& file : results.files) {
     try {
       const std::string text = detail::read_file(file);
       if (file.extension() == ".jsonl") {
         read_lines(results, file, text, records);
       } else {
-        read_single(results, file, text);
+        read_single(results, file, text, records);
       }
     } catch (const BudgetError& error) {
       refuse(file, 0, error);

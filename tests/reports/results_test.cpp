@@ -132,6 +132,28 @@ TEST(ResultLog, DirectoryThatCannotBeMadeIsAnError) {
   EXPECT_THROW(ResultLog(scratch / "file" / "results", "checks"), std::system_error);
 }
 
+/// Two million take ten seconds to refuse: what is shown here is that the last one too many is, in
+/// whichever file.
+TEST(ReadResults, NoMoreRecordsAreReadThanAllFilesMayHave) {
+  const ScratchDirectory scratch;
+  ResultLog(scratch / "a", "checks").append(check_named("1"));  // and the environment
+  scratch.write("b.jsonl", "torn, and counted\n\n");
+  scratch.write("c.json", to_json(sample_history()));
+  EXPECT_EQ(reports::read_results(scratch.path(), 4).warnings.size(), 1u);
+  const auto refusal_of = [&](std::size_t most) -> std::string {
+    try {
+      reports::read_results(scratch.path(), most);
+    } catch (const reports::ResultsError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refusal_of(3), (scratch / "c.json").string() + ": more than 3 records: split them");
+  EXPECT_EQ(refusal_of(2), (scratch / "b.jsonl").string() + ":1: more than 2 records: split them");
+  EXPECT_EQ(refusal_of(1),
+            (scratch / "a/checks.jsonl").string() + ":2: more than 1 records: split them");
+}
+
 TEST(ReadResults, UnknownVersionIsAWarningThatNamesIt) {
   const ScratchDirectory scratch;
   scratch.write("new.jsonl", "{\"format\":\"plumbline.check/9\"}\n" +

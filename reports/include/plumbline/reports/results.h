@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <plumbline/reports/bench_record.h>
+#include <plumbline/reports/budgets.h>
 #include <plumbline/reports/causes_record.h>
 #include <plumbline/reports/duet_record.h>
 #include <plumbline/reports/environment.h>
@@ -100,9 +101,11 @@ struct Results {
 /// Plumbline format. A line that is torn or of an unknown version becomes a warning, never a silent
 /// loss; `*.json` files of others (without a `format`) are passed over.
 ///
+/// @param most_records  in all files together
 /// @throws ResultsError where the directory is missing, is not one, holds no record at all, or one
 ///         that asks for more than budgets.h has for it ("file:line: what and what to do")
-Results read_results(const std::filesystem::path& directory);
+Results read_results(const std::filesystem::path& directory,
+                     std::size_t most_records = kMaxRecords);
 
 /// How many checks there are of each kind.
 struct Summary {
