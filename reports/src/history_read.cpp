@@ -1,6 +1,12 @@
 #include <plumbline/reports/history.h>
 
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include <SQLiteCpp/Column.h>
 #include <SQLiteCpp/Database.h>
@@ -31,7 +37,15 @@ verify::Verdict verdict_of(std::string_view word) {
   for (const auto& [verdict, candidate] : detail::EnumWords<verify::Verdict>::kWords) {
     if (word == candidate) return verdict;
   }
-  throw HistoryError("a history holds the verdict \"" + std::string(word) + "\"");
+  throw FormatError("the verdict \"" + std::string(word) + "\"");
+}
+
+std::uint64_t seed_of(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, seed);
+  if (!text.empty() && parsed.ec == std::errc() && parsed.ptr == end) return seed;
+  throw FormatError("the seed \"" + text + "\"");
 }
 
 constexpr const char* kCheckColumns =
@@ -101,7 +115,7 @@ HistoryRun read_run(const SQLite::Database& database, const Statement& row) {
   run.id = row.getColumn(0).getInt64();
   run.kind = row.getColumn(1).getString();
   run.sources = row.getColumn(2).getString();
-  run.seed = std::stoull(row.getColumn(3).getString());
+  run.seed = seed_of(row.getColumn(3).getString());
   run.environment = parse_environment(row.getColumn(4).getString());
   read_parts(database, run);
   return run;
@@ -126,7 +140,7 @@ std::vector<Series> read_series(const SQLite::Database& database, const std::str
                                kFiltered + " ORDER BY name, quantity.id, run.id");
   bind_filter(rows, filter);
   std::vector<Series> all;
-  std::int64_t last = -1;
+  std::optional<std::int64_t> last;
   while (rows.executeStep()) {
     const std::int64_t quantity = rows.getColumn(0).getInt64();
     if (std::exchange(last, quantity) != quantity) {

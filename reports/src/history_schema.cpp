@@ -84,6 +84,8 @@ CREATE INDEX counter_run ON counter (run);
 CREATE INDEX counter_quantity ON counter (quantity, run);
 )sql";
 
+constexpr const char* kMoveAway = "; move it away, and the next night begins a new history";
+
 constexpr const char* kMigrations[] = {kFirst};
 
 int number(const SQLite::Database& database, const char* query) {
@@ -112,6 +114,9 @@ void require_ours(const SQLite::Database& database, const std::filesystem::path&
   const int version = number(database, "PRAGMA user_version");
   if (id != kApplicationId && (id != 0 || version != 0 || used)) {
     throw HistoryError(file.string() + ": a database of another program, no history of ours");
+  }
+  if (version < 0) {
+    throw HistoryError(file.string() + ": states version " + std::to_string(version) + kMoveAway);
   }
   if (version > newest) {
     throw HistoryError(file.string() + ": a history of version " + std::to_string(version) +
@@ -167,11 +172,13 @@ void ask(const std::filesystem::path& file, const std::function<void()>& questio
     if (code == SQLITE_IOERR) throw std::system_error(EIO, std::generic_category(), file.string());
     std::string what = file.string() + ": " + error.what();
     if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT) {
-      what += "; move it away, and the next night begins a new history";
+      what += kMoveAway;
     } else if (code == SQLITE_BUSY) {
       what += "; another program has been writing to it for two minutes";
     }
     throw HistoryError(what);
+  } catch (const FormatError& error) {
+    throw HistoryError(file.string() + ": holds what no history does: " + error.what() + kMoveAway);
   }
 }
 

@@ -321,6 +321,54 @@ TEST(History, SaysThatAFileIsDamaged) {
   EXPECT_NE(refused.find("malformed; move it away"), std::string::npos) << refused;
 }
 
+/// All that is read of a history by some command.
+void read_all(const std::filesystem::path& file) {
+  const History history(file, History::Access::read);
+  for (const reports::HistoryRun& run : history.runs()) {
+    history.checks(run.id);
+    history.distributions(run.id);
+    history.counters(run.id);
+  }
+  history.distribution_series({});
+  history.counter_series({});
+}
+
+TEST(History, SaysWhatInItIsNotItsOwn) {
+  const std::pair<const char*, const char*> changes[] = {
+      {"PRAGMA user_version = -16777216", "states version -16777216; move it away"},
+      {"UPDATE run SET seed = '1x'", "holds what no history does: the seed \"1x\"; move it away"},
+      {"UPDATE run SET seed = '99999999999999999999'", "the seed \"99999999999999999999\""},
+      {"UPDATE run SET environment = '{'", "not JSON"},
+      {"UPDATE seed_run SET record = '{}'", "format"},
+      {"UPDATE check_result SET record = NULL, verdict = 'maybe'", "the verdict \"maybe\""},
+      {"UPDATE distribution SET measured = '[1, x]'", "not JSON"}};
+  for (const auto& [change, why] : changes) {
+    const ScratchDirectory scratch;
+    const auto file = scratch / "history.db";
+    History(file, History::Access::append).append(sample_run(1), sample_data(1));
+    read_all(file);
+    SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec(change);
+    const std::string refused = refusal([&] { read_all(file); });
+    EXPECT_NE(refused.find("history.db: "), std::string::npos) << change << refused;
+    EXPECT_NE(refused.find(why), std::string::npos) << change << refused;
+  }
+}
+
+/// The id that an empty list would be taken to end with.
+TEST(History, ReadsAQuantityWhateverItsNumberIs) {
+  const ScratchDirectory scratch;
+  const auto file = scratch / "history.db";
+  History(file, History::Access::append).append(sample_run(1), sample_data(1));
+  SQLite::Database(file.string(), SQLite::OPEN_READWRITE)
+      .exec(
+          "PRAGMA foreign_keys = OFF; UPDATE counter SET quantity = -1; DELETE FROM quantity WHERE "
+          "id = (SELECT max(id) FROM quantity); INSERT INTO quantity (id, name, unit, better) "
+          "VALUES (-1, 'a', 'b', 'lower')");
+  const auto series = History(file, History::Access::read).counter_series({});
+  ASSERT_EQ(series.size(), 1u);
+  EXPECT_EQ(series[0].name, "a");
+}
+
 TEST(History, HasNoRunThatWasNotAppended) {
   const ScratchDirectory scratch;
   const History history(scratch / "history.db", History::Access::append);
