@@ -26,15 +26,17 @@ void expect_refused_in_100_mb(const ScratchDirectory& scratch, const std::string
 }
 
 /// 131 kB that claim 12 GB, an attribute of 2 GB in 123 bytes, as much as may be claimed in a file
-/// that cannot hold it, and 2 GB behind a mistake, after which OpenEXR's two readers part.
+/// that cannot hold it, and 2 GB behind mistakes after which OpenEXR's two readers part.
 std::vector<std::string> exr_bombs() {
   const ExrClaims pixels{.x1 = 65535, .y1 = 16383, .compression = 2};
   const ExrClaims most{.x1 = 8191, .y1 = 8191, .compression = 3, .channels = {"B", "G", "R"}};
-  return {exr_header(pixels) + std::string(131072, '\1'),
-          bytes_of(20000630) + bytes_of(2) +
-              exr_attribute("foo", "string", std::string(100, 'a'), 0x7fffffff),
-          exr_header(most) + std::string(131072, '\1'),
-          text_of(source_file("tests/fuzz/inputs/image/two_gigabytes_behind_an_error.exr"))};
+  return {
+      exr_header(pixels) + std::string(131072, '\1'),
+      bytes_of(20000630) + bytes_of(2) +
+          exr_attribute("foo", "string", std::string(100, 'a'), 0x7fffffff),
+      exr_header(most) + std::string(131072, '\1'),
+      text_of(source_file("tests/fuzz/inputs/image/two_gigabytes_behind_an_error.exr")),
+      text_of(source_file("tests/fuzz/inputs/image/two_gigabytes_behind_a_list_of_channels.exr"))};
 }
 
 const std::string kSkyScene =

@@ -9,8 +9,10 @@
 #include <ImfStringAttribute.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <new>
+#include <string>
 #include <system_error>
 
 #include <plumbline/renderer/image_io/budgets.h>
@@ -38,6 +40,32 @@ class CheckedStream : public Imf::OStream {
 
  private:
   std::ofstream out_;
+};
+
+/// OpenEXR takes memory for what an attribute claims before it reads it, and its two readers do not
+/// agree on where attributes begin in a damaged header. What is read in one piece of four bytes
+/// behind the end of a name is such a claim, or the type of a channel, which is a small number.
+class HeaderBudget : public Imf::IStream {
+ public:
+  explicit HeaderBudget(const std::filesystem::path& path)
+      : Imf::IStream(path.c_str()), in_(path, std::ios::binary) {}
+
+  bool read(char c[], int n) override {
+    if (!in_.read(c, n)) throw InputError("is cut off");
+    std::uint32_t size = 0;
+    if (is_behind_name_ && n == sizeof(size)) std::memcpy(&size, c, sizeof(size));
+    if (size > kMaxExrAttributeBytes) {
+      throw BudgetError("its header has an attribute of " + std::to_string(size) + " bytes");
+    }
+    is_behind_name_ = n == 1 && *c == 0;
+    return true;
+  }
+  std::uint64_t tellg() override { return static_cast<std::uint64_t>(in_.tellg()); }
+  void seekg(std::uint64_t to) override { in_.seekg(static_cast<std::ifstream::off_type>(to)); }
+
+ private:
+  std::ifstream in_;
+  bool is_behind_name_ = false;
 };
 
 constexpr const char* kColor[] = {"R", "G", "B"};
@@ -179,7 +207,8 @@ Image read_exr(const std::filesystem::path& path) {
   }
   try {
     check_exr_claims(path);
-    Imf::InputFile file(path.c_str());
+    HeaderBudget stream(path);
+    Imf::InputFile file(stream);
     const Imath::Box2i window = file.header().dataWindow();
     Image image{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}, {}, {}, {}};
     read_channels(file, image);

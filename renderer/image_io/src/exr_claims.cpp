@@ -25,16 +25,6 @@ void require(bool good, fmt::format_string<Args...> what, Args&&... args) {
 /// but it may go on where the answer is no.
 thread_local std::size_t allocations_left = 0;
 
-/// The first error that was reported while a header was read. The C library goes on behind an
-/// attribute whose size it does not believe, within it, where the one for C++ believes it.
-thread_local exr_result_t reported = EXR_ERR_SUCCESS;
-
-void report(exr_const_context_t, exr_result_t error, const char*) {
-  // Our `version` is a text, that of files with several parts a number: it is passed over whole.
-  if (error == EXR_ERR_ATTR_TYPE_MISMATCH) return;
-  if (reported == EXR_ERR_SUCCESS) reported = error;
-}
-
 void* allocate(std::size_t bytes) {
   if (bytes > kMaxExrAttributeBytes) allocations_left = 0;
   return allocations_left == 0 || --allocations_left == 0 ? nullptr : std::malloc(bytes);
@@ -53,8 +43,7 @@ using Header = std::unique_ptr<std::remove_pointer_t<exr_context_t>, void (*)(ex
 
 Header open_header(const std::filesystem::path& path) {
   exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
-  options.error_handler_fn = report;
-  reported = EXR_ERR_SUCCESS;
+  options.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
   options.alloc_fn = allocate;
   options.free_fn = std::free;
   // For each attribute or channel: itself, its name, its value, a list.
@@ -63,7 +52,6 @@ Header open_header(const std::filesystem::path& path) {
   const exr_result_t result = exr_start_read(&context, path.c_str(), &options);
   Header header(context, [](exr_context_t open) { exr_finish(&open); });
   check(result);
-  check(reported);
   return header;
 }
 
