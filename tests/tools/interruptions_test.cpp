@@ -139,6 +139,7 @@ TEST(Interruptions, ACheckpointOfAnotherRenderIsRefusedWithWhatIsAnother) {
   };
   refused("--spp 2", "state: holds 4 samples per pixel, more than --spp 2");
   refused("--seed 1", "seed: kept of 0, asked for 1");
+  refused("--first-sample 4", "first sample: kept of 0, asked for 4");
   refused("--strategy light", "strategy: kept of mis, asked for light");
   refused("--heuristic balance", "heuristic: kept of power=2, asked for balance");
   refused("--counts 2,1", "counts: kept of 1,1, asked for 2,1");
