@@ -1,66 +1,22 @@
 #include "targets.h"
 
-#include <unistd.h>
-
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <plumbline/renderer/assembly/description.h>
 #include <plumbline/renderer/assembly/render.h>
-#include <plumbline/renderer/core/errors.h>
 #include <plumbline/renderer/image_io/exr.h>
 #include <plumbline/renderer/scene_file/load_scene.h>
-#include <plumbline/reports/errors.h>
 #include <plumbline/reports/exchange_messages.h>
 #include <plumbline/reports/page.h>
 #include <plumbline/reports/results.h>
+
+#include "folder.h"
 
 namespace plumbline::tests {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A directory in memory that goes with the process: readers take files, not bytes.
-class Folder {
- public:
-  Folder() : path_(fs::path("/dev/shm") / ("plumbline_fuzz_" + std::to_string(::getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  fs::path write(std::string_view name, std::string_view bytes) const {
-    const fs::path file = path_ / name;
-    std::ofstream(file, std::ios::binary) << bytes;
-    return file;
-  }
-
-  fs::path operator/(std::string_view name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
-
-const Folder& folder() {
-  static const Folder one;
-  return one;
-}
-
-/// Calls a reader that may refuse its input.
-template <class Read>
-void may_refuse(const Read& read) {
-  try {
-    read();
-  } catch (const renderer::InputError&) {
-  } catch (const reports::FormatError&) {
-  } catch (const reports::ResultsError&) {
-  }
-}
 
 /// Four pixels of two samples: enough to meet every shape, BSDF and light of a small scene.
 void load_and_render(const fs::path& file) {

@@ -23,16 +23,28 @@ void fuzz_mesh(std::string_view bytes);
 /// An EXR file: read, written again, and as the environment of a scene.
 void fuzz_image(std::string_view bytes);
 
+/// An EXR file as `compare` and `merge` take it: held against another image of its size, channel by
+/// channel, and merged.
+void fuzz_compare(std::string_view bytes);
+
+/// What stands behind options of the command line, a line for each.
+void fuzz_values(std::string_view bytes);
+
+/// An array in NumPy's format, as a program under test sends it: its header.
+void fuzz_npy(std::string_view bytes);
+
+/// A history of nights, an SQLite file: opened, and read as `history` does.
+void fuzz_history(std::string_view bytes);
+
 /// A file of records in a results directory: read, and made into a page.
 void fuzz_records(std::string_view bytes);
 
 /// What a program under test says over the pipe, and the files of options and waivers.
 void fuzz_exchange(std::string_view bytes);
 
-inline constexpr FuzzTarget kFuzzTargets[] = {{"scene", fuzz_scene},
-                                              {"mesh", fuzz_mesh},
-                                              {"image", fuzz_image},
-                                              {"records", fuzz_records},
-                                              {"exchange", fuzz_exchange}};
+inline constexpr FuzzTarget kFuzzTargets[] = {
+    {"scene", fuzz_scene},     {"mesh", fuzz_mesh},       {"image", fuzz_image},
+    {"compare", fuzz_compare}, {"values", fuzz_values},   {"npy", fuzz_npy},
+    {"history", fuzz_history}, {"records", fuzz_records}, {"exchange", fuzz_exchange}};
 
 }  // namespace plumbline::tests

@@ -50,6 +50,9 @@ def parts(directory):
             Effort("a short set", 15, duets("--only", short, "--seconds", "30")), Effort("all parts", 70, duets()))),
         Part("calibration", "levels, power and coverage of the checks", (
             Effort("as in the gate", 2, calibrate), Effort("full", 60, (*calibrate, "--full")))),
+        Part("fuzz", "hostile input for every reader of what users hand us, under sanitizers", (
+            Effort("60 s of each target", 16, ("./run", "fuzz", "60")),
+            Effort("600 s of each", 97, ("./run", "fuzz", "600")))),
         Part("mutants", "known bugs, each of which the gate must see", (
             Effort("named", 60, ("tests/mutants/run_mutants.py",)),
             Effort("named and 200 mechanical", 240,
