@@ -21,7 +21,7 @@ struct RenderRecord {
   std::uint64_t samples_per_pixel = 0;
   std::uint64_t first_sample = 0;  ///< number of the first one of a pixel
   std::uint64_t end_sample = 0;    ///< one past the last: of a pixel that has most; 0: not told
-  double seconds = 0;  ///< wall clock, rendering only
+  double seconds = 0;              ///< wall clock, rendering only
   std::uint64_t camera_rays = 0;
   std::uint64_t bounce_rays = 0;
   std::uint64_t shadow_rays = 0;
