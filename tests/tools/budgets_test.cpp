@@ -36,7 +36,8 @@ std::vector<std::string> exr_bombs() {
           exr_attribute("foo", "string", std::string(100, 'a'), 0x7fffffff),
       exr_header(most) + std::string(131072, '\1'),
       text_of(source_file("tests/fuzz/inputs/image/two_gigabytes_behind_an_error.exr")),
-      text_of(source_file("tests/fuzz/inputs/image/two_gigabytes_behind_a_list_of_channels.exr"))};
+      text_of(source_file("tests/fuzz/inputs/image/two_gigabytes_behind_a_list_of_channels.exr")),
+      text_of(source_file("tests/fuzz/inputs/image/window_that_one_reader_sees.exr"))};
 }
 
 const std::string kSkyScene =

@@ -7,8 +7,11 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImfVersion.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -61,7 +64,10 @@ class HeaderBudget : public Imf::IStream {
     return true;
   }
   std::uint64_t tellg() override { return static_cast<std::uint64_t>(in_.tellg()); }
-  void seekg(std::uint64_t to) override { in_.seekg(static_cast<std::ifstream::off_type>(to)); }
+  void seekg(std::uint64_t to) override {
+    in_.seekg(static_cast<std::ifstream::off_type>(to));
+    is_behind_name_ = false;
+  }
 
  private:
   std::ifstream in_;
@@ -132,6 +138,22 @@ template <class T>
 void grow(std::vector<T>& values, std::size_t size, std::size_t whole) {
   if (values.capacity() < size) values.reserve(std::min(whole, std::max(size, 2 * values.size())));
   values.resize(size);
+}
+
+/// What the reader for C++ takes of the header, before it takes memory for that.
+ExrHeader seen_in(HeaderBudget& stream) {
+  std::array<std::int32_t, 2> magic_and_version{};
+  stream.read(reinterpret_cast<char*>(magic_and_version.data()), sizeof(magic_and_version));
+  Imf::Header header;
+  header.readFrom(stream, magic_and_version[1]);
+  stream.seekg(0);
+  const Imath::Box2i& window = header.dataWindow();
+  ExrHeader seen{window.min.x, window.min.y, window.max.x, window.max.y, 0, header.compression()};
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++seen.channels;
+  if (!Imf::isTiled(magic_and_version[1])) return seen;
+  seen.tile_width = header.tileDescription().xSize;
+  seen.tile_height = header.tileDescription().ySize;
+  return seen;
 }
 
 void read_channels(Imf::InputFile& file, Image& image) {
@@ -206,8 +228,9 @@ Image read_exr(const std::filesystem::path& path) {
     throw InputError(path.string() + ": no such image");
   }
   try {
-    check_exr_claims(path);
+    const ExrHeader claimed = check_exr_claims(path);
     HeaderBudget stream(path);
+    if (seen_in(stream) != claimed) throw InputError("has a damaged header");
     Imf::InputFile file(stream);
     const Imath::Box2i window = file.header().dataWindow();
     Image image{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}, {}, {}, {}};

@@ -75,7 +75,7 @@ std::int64_t pixels_at_once(const Header& header, std::int64_t width) {
 
 }  // namespace
 
-void check_exr_claims(const std::filesystem::path& path) {
+ExrHeader check_exr_claims(const std::filesystem::path& path) {
   const Header header = open_header(path);
   int parts = 0;
   check(exr_get_count(header.get(), &parts));
@@ -108,6 +108,13 @@ void check_exr_claims(const std::filesystem::path& path) {
   require(16.0 * chunks <= bytes && static_cast<double>(width * height) * pixel <= ratio * bytes,
           "claims {}x{} pixels in {} pieces, more than {} bytes can hold: it is cut off or made up",
           width, height, chunks, bytes);
+  ExrHeader claims{
+      low.x, low.y, high.x, high.y, channels.num_channels, get(header, exr_get_compression)};
+  if (get(header, exr_get_storage) == EXR_STORAGE_TILED) {
+    check(exr_get_tile_descriptor(header.get(), 0, &claims.tile_width, &claims.tile_height, nullptr,
+                                  nullptr));
+  }
+  return claims;
 }
 
 }  // namespace plumbline::renderer

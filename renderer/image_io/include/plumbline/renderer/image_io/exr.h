@@ -34,13 +34,20 @@ void write_exr(const std::filesystem::path& path, const Image& image);
 /// Reads R, G, B (or Y alone) and, where present, the layers that write_exr makes.
 ///
 /// @throws BudgetError "file: what" for one that claims more than image_io/budgets.h has for it, or
-/// than
-///         it can hold, before memory is taken for that; InputError for anything else that is not
-///         such an image
+///         than it can hold, before memory is taken for that; InputError for anything else that is
+///         not such an image
 Image read_exr(const std::filesystem::path& path);
+
+/// Of a header, what memory is taken by: two readers of a damaged one may not agree on it.
+struct ExrHeader {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< the window, both ends included
+  int channels = 0, compression = 0;
+  std::uint32_t tile_width = 0, tile_height = 0;  ///< 0 where there are none
+  bool operator==(const ExrHeader&) const = default;
+};
 
 /// Refuses an OpenEXR file for what its header claims, by which OpenEXR itself takes memory: as
 /// read_exr does, without the file's name.
-void check_exr_claims(const std::filesystem::path& path);
+ExrHeader check_exr_claims(const std::filesystem::path& path);
 
 }  // namespace plumbline::renderer
