@@ -50,7 +50,8 @@ bool is_grey(const renderer::Image& image) {
 /// not an estimate.
 bool knows_noise(const renderer::Image& image) {
   return !image.variance.empty() && !image.count.empty() &&
-         std::all_of(image.count.begin(), image.count.end(), [](float n) { return n >= 2; });
+         std::all_of(image.count.begin(), image.count.end(),
+                     [](float n) { return n >= 2 && n <= 0x1p53f; });
 }
 
 /// @param with_noise  whether to keep the variance layer

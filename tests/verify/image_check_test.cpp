@@ -210,5 +210,14 @@ TEST(ImageCheck, RefusesImagesThatDoNotMatch) {
   EXPECT_THROW(check_image(image_options("i"), small, small), std::invalid_argument);
 }
 
+TEST(ImageCheck, RefusesCountsThatAreNone) {
+  Image image{2, 2, {1, 1, 1, 1}, {1, 1, 1, 1}, {4, 4, 4, 4}};
+  EXPECT_EQ(check_image(image_options("i"), image, image).check.samples, 16u);
+  for (const double count : {-4.5, std::nan(""), HUGE_VAL, 1e30}) {
+    image.count[2] = count;
+    EXPECT_THROW(check_image(image_options("i"), image, image), std::invalid_argument) << count;
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::verify

@@ -35,6 +35,9 @@ void validate(const ImageOptions& options, const Image& image, const Image& refe
             "the variance layer has the wrong length");
     require(i->variance.empty() == i->count.empty() && (i->count.empty() || i->count.size() == n),
             options, "variance and count come together, one value per pixel");
+    require(std::all_of(i->count.begin(), i->count.end(),
+                        [](double c) { return c >= 0 && c <= 0x1p53; }),
+            options, "a count of samples is no number from 0 to 2^53");
   }
   require(options.looks >= 1 && options.look >= 0 && options.look < options.looks, options,
           "look must be one of looks");
@@ -67,7 +70,7 @@ Evidence pool(const Residuals& r, const ImageOptions& options, double allowance)
     samples += r.samples[i];
   }
   const bool from_residuals = r.variance.empty();
-  e.samples = static_cast<std::uint64_t>(from_residuals ? n : samples);
+  e.samples = static_cast<std::uint64_t>(std::min(from_residuals ? n : samples, 0x1p63));
   e.standard_error =
       from_residuals ? std::sqrt(squares / std::max(1.0, n - 1) / n) : std::sqrt(variance) / n;
   const SumSkewness skew = sum_skewness(r.residual);

@@ -52,7 +52,7 @@ struct ImageResult {
 ///
 /// @param reference  without variance: exact, averaged over each pixel's footprint; with: a second
 ///                   render
-/// @throws std::invalid_argument if sizes differ or an array has the wrong length
+/// @throws std::invalid_argument if sizes differ, an array has the wrong length, or a count is none
 /// @source Jung, Hanika, Dachsbacher 2020 (JCGT 9:2): Welch's test per tile, map and histogram of
 ///         p-values
 ImageResult check_image(const ImageOptions& options, const Image& image, const Image& reference);
