@@ -15,7 +15,9 @@ namespace plumbline::tests {
 namespace {
 
 using renderer::RenderState;
+using tools::put_back;
 using tools::Shard;
+using tools::taken_out;
 
 /// A state in which no two pixels are alike: 5 × 3, with two replicates and three counts of each.
 RenderState made_state() {
