@@ -8,11 +8,11 @@ namespace plumbline::verify {
 
 namespace {
 
-// A group of samples that lie within a few roundings, with fewer of them near it than in it, where
+// A group of samples that lie within 32 roundings, with fewer of them near it than in it, where
 // near is 64 times as far. A density that is smooth so closely gives a group a 64th of what lies
 // near: of eight or more it holds half with a probability below 64^-8 (16 over 8) = 5e-11, and
 // there are some thousand groups so large at the most. Lattices of floats are as fine as the group.
-constexpr double kGroupRoundings = 4;
+constexpr double kGroupRoundings = 32;
 constexpr double kNear = 64;
 constexpr std::size_t kFewest = 8;
 
