@@ -89,6 +89,15 @@ TEST(MeanCheck, NeverPassesWithASampleThatIsNotFinite) {
   }));
 }
 
+TEST(MeanCheck, IsUndecidedWhereFiniteSamplesOverflowItsSums) {
+  // Squares of 1e300 are infinite. A correct estimator of such an answer is no failure.
+  const CheckResult r =
+      run(options("mean/huge", 1e300), [](Random& random) { return 2e300 * random.uniform(); });
+  EXPECT_EQ(r.verdict, Verdict::inconclusive);
+  EXPECT_EQ(r.reason,
+            "the samples are finite, their sum or the squares of their deviations are not");
+}
+
 TEST(MeanCheck, TakesEqualSamplesForWhatTheyAre) {
   expect_verdict(run(options("mean/constant", 0.5), [](Random&) { return 0.5; }));
   MeanOptions wrong = options("mean/wrong constant", 0.5);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <plumbline/verify/pair.h>
+
 #include "diagnosis/shape.h"
 #include "diagnosis/strays.h"
 #include "seen_ratios.h"
@@ -147,6 +149,35 @@ TEST(Strays, AllRejectedIsAllButOneInTenThousand) {
   EXPECT_TRUE(rejected(1, true));
   EXPECT_FALSE(rejected(1, false));
   EXPECT_FALSE(rejected(0.9998, true));
+}
+
+/// The likely cause of a choice among five things.
+std::string cause_of_choice(const std::function<int(double)>& choose,
+                            const std::function<double(int)>& pmf) {
+  const Report report = check_pair(sampling_pair<int>(
+      "choice", Domain::discrete(5), [choose](double u) { return choose(u); },
+      [pmf](int i) { return pmf(i); }));
+  EXPECT_FALSE(report.ok());
+  const std::string summary = report.summary();
+  const std::size_t begin = summary.find("likely cause: ");
+  return begin == std::string::npos ? summary
+                                    : summary.substr(begin, summary.find('\n', begin) - begin);
+}
+
+TEST(Choices, OfWhatIsNotThereOrNeverChosenAreNamed) {
+  const auto fifth = [](int) { return 0.2; };
+  EXPECT_NE(cause_of_choice([](double u) { return static_cast<int>(5 * u) - 1; }, fifth)
+                .find("% of the samples name what is not there, as -1 of 5 from 0 on"),
+            std::string::npos);
+  EXPECT_NE(cause_of_choice([](double u) { return static_cast<int>(6 * u); }, fifth)
+                .find("% of the samples name what is not there, as 5 of 5 from 0 on"),
+            std::string::npos);
+  EXPECT_EQ(
+      cause_of_choice([](double u) { return static_cast<int>(4 * u); }, fifth),
+      "likely cause: item 4 of 5 is never chosen, the others in proportion: an index too few?");
+  EXPECT_EQ(cause_of_choice([](double u) { return static_cast<int>(5 * u); },
+                            [](int i) { return i == 2 ? std::nan("") : 0.2; }),
+            "likely cause: pdf() is nan in 20 % of the domain");
 }
 
 }  // namespace

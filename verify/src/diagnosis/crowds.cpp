@@ -96,21 +96,36 @@ std::optional<Finding> find_samples_near_a_line(const ReportEvidence& evidence) 
   return std::nullopt;
 }
 
+namespace {
+
+/// The middles of the cells of a grid; of a set, its members.
+std::vector<Vec3> points_of(const Domain& domain) {
+  constexpr std::size_t kPerSide = 48, kMost = kPerSide * kPerSide;
+  std::vector<Vec3> points;
+  if (domain.dimension() == 0) {
+    for (std::size_t i = 0; i < std::min(domain.size(), kMost); ++i) {
+      points.push_back({static_cast<double>(i), 0, 0});
+    }
+    return points;
+  }
+  const auto middle = [](std::size_t i) { return (static_cast<double>(i) + 0.5) / kPerSide; };
+  for (std::size_t i = 0; i < kMost; ++i) {
+    points.push_back(domain.chart().from_square({middle(i % kPerSide), middle(i / kPerSide)}));
+  }
+  return points;
+}
+
+}  // namespace
+
 std::optional<Finding> find_bad_density(const ReportEvidence& evidence) {
-  constexpr int kPerSide = 48;
   constexpr double kGoodPart = 2e-3;
   // Where it is not a number it may be for what is wrong elsewhere too.
   constexpr double kLargePart = 1e-2;
-  constexpr double kPoints = kPerSide * kPerSide;
   for (const ViewEvidence* v : views_to_ask(evidence)) {
-    if (!v->failed || v->pair->domain.dimension() == 0) continue;
-    const Chart& chart = v->pair->domain.chart();
+    if (!v->failed) continue;
+    const std::vector<Vec3> points = points_of(v->pair->domain);
+    const auto all = static_cast<double>(points.size());
     double negative = 0, least = 0, most = 0, none = 0, example = 0;
-    std::vector<Vec3> points;
-    for (int i = 0; i < kPerSide * kPerSide; ++i) {
-      const int column = i % kPerSide, row = i / kPerSide;
-      points.push_back(chart.from_square({(column + 0.5) / kPerSide, (row + 0.5) / kPerSide}));
-    }
     for (const double pdf : pdfs_at(*v, points)) {
       if (!std::isfinite(pdf)) {
         ++none;
@@ -121,14 +136,14 @@ std::optional<Finding> find_bad_density(const ReportEvidence& evidence) {
       least = std::min(least, pdf);
       most = std::max(most, pdf);
     }
-    const auto percent = [](double count) {
-      return number(std::round(1e3 * count / kPoints) / 10) + " % of the domain";
+    const auto percent = [all](double count) {
+      return number(std::round(1e3 * count / all) / 10) + " % of the domain";
     };
-    if (none > kLargePart * kPoints) {
+    if (none > kLargePart * all) {
       return Finding{CauseKind::not_finite, "pdf() is " + number(example) + " in " + percent(none)};
     }
     constexpr double kRounding = 1e-6;
-    if (negative > kGoodPart * kPoints && -least > kRounding * most) {
+    if (negative > kGoodPart * all && -least > kRounding * most) {
       return Finding{CauseKind::not_finite,
                      "pdf() is negative, down to " + number(least) + ", in " + percent(negative)};
     }

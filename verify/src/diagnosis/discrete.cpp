@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "diagnosis/ask.h"
@@ -19,6 +20,8 @@ constexpr std::size_t kSamplesEach = 200, kFewestSamples = 100'000, kMostSamples
 struct Counted {
   std::vector<double> pmf, observed;
   double samples = 0, sum = 0;
+  double outside = 0,
+         outside_at = 0;  ///< samples that name what is not there, and the last of them
 };
 
 std::optional<Counted> count(const ViewEvidence& view) {
@@ -36,7 +39,12 @@ std::optional<Counted> count(const ViewEvidence& view) {
   Random random = random_for(Stream::discrete);
   const std::size_t samples = std::clamp(kSamplesEach * size, kFewestSamples, kMostSamples);
   for (const Record& s : draw_records(view, random, samples)) {
-    if (!s || !(s->x[0] >= 0) || s->x[0] >= static_cast<double>(size)) continue;
+    if (!s) continue;
+    if (!(s->x[0] >= 0) || s->x[0] >= static_cast<double>(size)) {
+      ++c.outside;
+      c.outside_at = s->x[0];
+      continue;
+    }
     ++c.observed[static_cast<std::size_t>(s->x[0])];
     ++c.samples;
   }
@@ -47,17 +55,24 @@ std::optional<Counted> count(const ViewEvidence& view) {
 double expected(const Counted& c, std::size_t i) { return c.samples * c.pmf[i] / c.sum; }
 
 /// As often as pmf() says, apart from what it adds up to.
-bool in_proportion(const Counted& c) {
+///
+/// @param chosen_only  leaves out what is never chosen
+bool in_proportion(const Counted& c, bool chosen_only = false) {
   constexpr double kFewestExpected = 10, kLevel = 1e-4;
-  double statistic = 0, degrees = -1;
+  double statistic = 0, degrees = -1, sum = 0;
   for (std::size_t i = 0; i < c.pmf.size(); ++i) {
-    const double e = expected(c, i);
-    if (e < kFewestExpected) continue;
+    if (!chosen_only || c.observed[i] > 0) sum += c.pmf[i];
+  }
+  for (std::size_t i = 0; i < c.pmf.size(); ++i) {
+    const double e = c.samples * c.pmf[i] / sum;
+    if (e < kFewestExpected || (chosen_only && c.observed[i] == 0)) continue;
     statistic += (c.observed[i] - e) * (c.observed[i] - e) / e;
     ++degrees;
   }
   return degrees < 1 || chi_square_tail(statistic, degrees) > kLevel;
 }
+
+std::string percent(double share) { return number(std::round(1e3 * share) / 10) + " %"; }
 
 /// Share of pmf() on what is never chosen.
 double never_chosen(const Counted& c) {
@@ -77,6 +92,13 @@ std::optional<Finding> explain_discrete(const ReportEvidence& evidence) {
   const auto counted = count(view);
   if (!counted) return std::nullopt;
   const Counted& c = *counted;
+  constexpr double kMany = 0.005;
+  if (c.outside > kMany * (c.outside + c.samples)) {
+    return Finding{CauseKind::support,
+                   percent(c.outside / (c.outside + c.samples)) +
+                       " of the samples name what is not there, as " + number(c.outside_at) +
+                       " of " + number(static_cast<double>(c.pmf.size())) + " from 0 on"};
+  }
   if (in_proportion(c)) {
     constexpr double kOne = 1e-4;
     if (std::abs(c.sum - 1) < kOne) return std::nullopt;
@@ -87,18 +109,26 @@ std::optional<Finding> explain_discrete(const ReportEvidence& evidence) {
                        (per_item ? ", the number of items: a density over [0, 1), not a probability"
                                  : ", and is in proportion to how often each is chosen")};
   }
+  const double never = never_chosen(c);
+  const auto unchosen = std::find(c.observed.begin(), c.observed.end(), 0.0);
+  if (never > 0 && std::count(c.observed.begin(), c.observed.end(), 0.0) == 1 &&
+      in_proportion(c, true)) {
+    return Finding{CauseKind::support,
+                   "item " + number(static_cast<double>(unchosen - c.observed.begin())) + " of " +
+                       number(static_cast<double>(c.pmf.size())) +
+                       " is never chosen, the others in proportion: an index too few?"};
+  }
   const auto [least, most_likely] = std::minmax_element(c.pmf.begin(), c.pmf.end());
   if (c.pmf.size() > 1 && *most_likely - *least < 1e-9 * *most_likely) {
     return Finding{CauseKind::choice_probability,
                    "pmf() is the same for all, " + number(*least) +
                        ", but they are not chosen alike: the weight of the chosen one is missing"};
   }
-  if (const double share = never_chosen(c); share > 0.02) {
-    return Finding{
-        CauseKind::numbers_reused,
-        number(std::round(1e3 * share) / 10) +
-            " % of pmf() is on what is never chosen: a random number that has chosen one "
-            "way is used again without being stretched to [0, 1)?"};
+  if (never > 0.02) {
+    return Finding{CauseKind::numbers_reused,
+                   percent(never) +
+                       " of pmf() is on what is never chosen: a random number that has chosen one "
+                       "way is used again without being stretched to [0, 1)?"};
   }
   std::size_t worst = 0;
   double most = 0;
