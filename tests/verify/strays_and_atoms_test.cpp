@@ -180,5 +180,34 @@ TEST(Choices, OfWhatIsNotThereOrNeverChosenAreNamed) {
             "likely cause: pdf() is nan in 20 % of the domain");
 }
 
+TEST(Atoms, OfAMassThatIsNoneFail) {
+  for (const double mass : {std::nan(""), -1.0}) {
+    SamplingPair pair;
+    pair.name = "mass";
+    pair.domain = Domain::unit_square();
+    pair.pdf = even_density;
+    pair.sample = [mass](const Uniforms& u) -> std::optional<SampleRecord> {
+      SampleRecord record{{u[0], u[1], 0}, {}, {}};
+      record.mass = mass;
+      return record;
+    };
+    const Report report = check_pair(pair);
+    EXPECT_NE(report.summary().find("an atom has mass "), std::string::npos) << report.summary();
+  }
+}
+
+TEST(Shifts, OfAnEvenDensityAreNoCause) {
+  // Half of the square is rejected: moved samples would explain nothing of it.
+  const Report report = check_pair(sampling_pair<Point2>(
+      "half", Domain::unit_square(),
+      [](double u, double v) -> std::optional<Point2> {
+        if (u < 0.5) return std::nullopt;
+        return Point2{u, v};
+      },
+      [](const Point2&) { return 1.0; }));
+  EXPECT_EQ(report.verdict(), Verdict::fail);
+  EXPECT_EQ(report.summary().find("moved"), std::string::npos) << report.summary();
+}
+
 }  // namespace
 }  // namespace plumbline::verify

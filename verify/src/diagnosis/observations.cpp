@@ -42,6 +42,7 @@ double error_of(const ExactPoint& p) { return p.error + kOwnRounding; }
 struct BinPrediction {
   double expected = 0, error = 0;
   bool varies = false;
+  bool partly = false;  ///< of some nodes nothing is said: `expected` is what the others hold
 };
 
 /// Mean of the prediction over the nodes, in units of the bin's expected count. The nodes stand for
@@ -51,13 +52,16 @@ struct BinPrediction {
 BinPrediction predict(const CountedBin& bin, const Prediction& prediction,
                       std::span<const double> parameters, std::size_t stride = 1) {
   double mean = 0, squares = 0, looked_at = 0;
-  bool seen = false;
+  bool seen = false, partly = false;
   for (std::size_t i = stride / 2; i < bin.nodes.size(); i += stride) {
     looked_at += bin.shares[i];
     if (!(bin.nodes[i].base > 0)) continue;
     seen = true;
     const double predicted = prediction(bin.nodes[i], parameters);
-    if (predicted == kNothingSaid) return {std::numeric_limits<double>::quiet_NaN(), 0};
+    if (predicted == kNothingSaid) {
+      partly = true;
+      continue;
+    }
     const double ratio = predicted / bin.nodes[i].base;
     mean += bin.shares[i] * ratio;
     squares += bin.shares[i] * ratio * ratio;
@@ -69,8 +73,9 @@ BinPrediction predict(const CountedBin& bin, const Prediction& prediction,
   const double of_nodes =
       spread < 1e-12 * std::abs(mean) ? 0 : spread / std::sqrt(double(bin.nodes.size()));
   BinPrediction p{bin.expected * mean,
-                  std::hypot(bin.expected * of_nodes, bin.expected_error * mean), of_nodes > 0};
-  if (p.varies && stride == 1 && !bin.measures.empty()) {
+                  std::hypot(bin.expected * of_nodes, bin.expected_error * mean), of_nodes > 0,
+                  partly};
+  if (p.varies && !partly && stride == 1 && !bin.measures.empty()) {
     double direct = 0;
     for (std::size_t i = 0; i < bin.nodes.size(); ++i) {
       direct += bin.samples * bin.measures[i] * prediction(bin.nodes[i], parameters);
@@ -238,8 +243,10 @@ Fit Observations::judge_view(std::size_t view, const Prediction& prediction,
   for (const std::size_t i : o.edges_last) {
     const CountedBin& bin = o.bins[i];
     const BinPrediction p = predict(bin, prediction, numbers);
-    if (std::isnan(p.expected)) {
+    if (p.partly) {
       unknown = true;
+      // What is said of a part of it must be there.
+      if (bin.judged && !bin.edge && pull(bin, p) < -allowed && ++odd > kOddBins) return fit;
       continue;
     }
     varies = varies || p.varies;
@@ -309,7 +316,7 @@ std::vector<double> Observations::residuals(const Prediction& prediction,
       if (!o.bins[i].judged || o.bins[i].edge) continue;
       const std::size_t stride = flatten && o.bins[i].nodes.size() > 8 ? 4 : 1;
       const BinPrediction p = predict(o.bins[i], prediction, parameters, stride);
-      out.push_back(std::isnan(p.expected) ? 0 : pull(o.bins[i], p));
+      out.push_back(p.partly ? 0 : pull(o.bins[i], p));
     }
   }
   for (double& r : out) {

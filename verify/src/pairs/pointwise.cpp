@@ -247,8 +247,12 @@ class Pointwise {
 
   template <class Where>
   void see_point(const SampleRecord& sample, const Where& where) {
-    finite_.hold(is_finite(sample.x) && all_finite(sample.weight),
-                 [&] { return "sample or weight is not finite at " + where(); });
+    const bool has_mass = sample.mass >= 0;  // a density's is 0; neither is NaN
+    finite_.hold(is_finite(sample.x) && all_finite(sample.weight) && has_mass, [&] {
+      return (has_mass ? std::string("sample or weight is not finite")
+                       : "an atom has mass " + number(sample.mass)) +
+             " at " + where();
+    });
     if (!is_finite(sample.x)) return;
     support_.hold(in_domain(sample.x), [&] { return "sample outside the domain at " + where(); });
     if (sample.mass > 0) see_atom(sample);
