@@ -95,21 +95,16 @@ struct Distance {
 
 /// Where rays meet the plane of a flat surface.
 struct Crossing {
-  V to_corner_x, to_corner_y, to_corner_z;
-  V sign;
+  Vec to_corner;
   Distance distance;  // `under` is the cosine
 
   template <class Pick, std::size_t N>
   HWY_INLINE Crossing(const Flats<N>& flats, Pick pick, const Rays& rays)
-      : to_corner_x(hn::Sub(pick(flats.corner.x), rays.origin.x)),
-        to_corner_y(hn::Sub(pick(flats.corner.y), rays.origin.y)),
-        to_corner_z(hn::Sub(pick(flats.corner.z), rays.origin.z)) {
+      : to_corner(minus(pick(flats.corner), rays.origin)) {
     const Vec normal = pick(flats.normal);
     const V across = inner(normal, rays.direction);
-    const V height = plus_product(
-        plus_product(hn::Mul(normal.x, to_corner_x), normal.y, to_corner_y), normal.z, to_corner_z);
-    sign = hn::And(across, hn::SignBit(kFloats));
-    distance.over = hn::Xor(height, sign);
+    const V sign = hn::And(across, hn::SignBit(kFloats));
+    distance.over = hn::Xor(inner(normal, to_corner), sign);
     distance.under = hn::Xor(across, sign);
   }
 };
@@ -121,14 +116,10 @@ struct Place {
 
   template <class Pick, std::size_t N>
   HWY_INLINE Place(const Flats<N>& flats, Pick pick, const Rays& rays, const Crossing& at) {
-    const V over = at.distance.over, under = at.distance.under;
-    const V x = hn::Sub(hn::Mul(over, rays.direction.x), hn::Mul(under, at.to_corner_x));
-    const V y = hn::Sub(hn::Mul(over, rays.direction.y), hn::Mul(under, at.to_corner_y));
-    const V z = hn::Sub(hn::Mul(over, rays.direction.z), hn::Mul(under, at.to_corner_z));
-    u = plus_product(plus_product(hn::Mul(pick(flats.along_u.x), x), pick(flats.along_u.y), y),
-                     pick(flats.along_u.z), z);
-    v = plus_product(plus_product(hn::Mul(pick(flats.along_v.x), x), pick(flats.along_v.y), y),
-                     pick(flats.along_v.z), z);
+    const V under = at.distance.under;
+    const Vec offset = minus(times(at.distance.over, rays.direction), times(under, at.to_corner));
+    u = inner(pick(flats.along_u), offset);
+    v = inner(pick(flats.along_v), offset);
     const V farthest = N == 3 ? hn::Add(u, v) : hn::Max(u, v);
     inside = hn::Min(hn::Min(u, v), hn::Sub(under, farthest));
     slack = plus_product(pick(flats.slack), rays.reach, pick(flats.slack_by_origin));
