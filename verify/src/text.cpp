@@ -1,5 +1,6 @@
 #include "text.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace plumbline::verify {
@@ -11,6 +12,8 @@ std::string number(double value) {
 }
 
 std::string number(std::uint64_t value) { return std::to_string(value); }
+
+std::string percent(double share) { return number(std::round(1e3 * share) / 10) + " %"; }
 
 std::string place(const Vec3& x) {
   std::string text = "(";

@@ -13,6 +13,9 @@ std::string number(double value);
 
 std::string number(std::uint64_t value);
 
+/// A share to a tenth of a percent: "12.5 %".
+std::string percent(double share);
+
 /// "(0.1, 0.2, 0.97)"
 std::string place(const Vec3& x);
 

@@ -36,17 +36,17 @@ TreeCut cut_at_median(std::span<Point> points, std::size_t d, double low, double
   std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(middle),
                    points.end(), [d](const Point& a, const Point& b) { return a[d] < b[d]; });
   const double median = points[middle][d];
-  std::size_t ties = 0;
+  const auto ties = static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [&](const Point& p) { return p[d] == median; }));
+  if (ties < kFewestTies || 4 * ties < points.size() || (median > low && node % 2 == 0)) {
+    return {median, middle};
+  }
   double next = high;
-  for (const Point& p : points) {
-    if (p[d] == median) ++ties;
+  for (const Point& p : points.subspan(middle)) {
     if (p[d] > median) next = std::min(next, p[d]);
   }
   const double above = (median + next) / 2;
-  const bool many = ties >= kFewestTies && 4 * ties >= points.size();
-  if (!many || above - median <= kTieRoundings * resolution || (median > low && node % 2 == 0)) {
-    return {median, middle};
-  }
+  if (above - median <= kTieRoundings * resolution) return {median, middle};
   const auto high_side =
       std::partition(points.begin(), points.end(), [&](const Point& p) { return p[d] < above; });
   return {above, static_cast<std::size_t>(high_side - points.begin())};

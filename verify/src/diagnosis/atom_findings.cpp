@@ -73,8 +73,7 @@ std::optional<Finding> find_atoms_of_other_mass(const ReportEvidence& evidence) 
       }
       return Finding{CauseKind::atom_as_density,
                      "an atom states a mass of " + number(a.mass) + ", but " +
-                         number(std::round(1e3 * a.count / double{kSamples}) / 10) +
-                         " % of the samples are drawn there"};
+                         percent(a.count / double{kSamples}) + " of the samples are drawn there"};
     }
   }
   return std::nullopt;

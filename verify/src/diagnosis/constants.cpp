@@ -268,8 +268,8 @@ void add_of_rejection(std::vector<Hypothesis>& list, const ReportEvidence& evide
       return p.base * (1 - p.view->mass->rejected);
     };
     h.words = [=](std::span<const double>) {
-      return "samples are rejected, up to " + number(std::round(1e3 * rejected) / 10) + " %, but " +
-             blame.function + " is as large as if they were drawn again";
+      return "samples are rejected, up to " + percent(rejected) + ", but " + blame.function +
+             " is as large as if they were drawn again";
     };
     list.push_back(std::move(h));
   } else if (integral < 1 - kSome && integral > 0 &&

@@ -80,7 +80,7 @@ std::optional<Finding> find_samples_near_a_line(const ReportEvidence& evidence) 
         continue;
       const double share =
           static_cast<double>(crowd->to - crowd->from) / static_cast<double>(samples.size());
-      const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
+      const std::string some = percent(share) + " of the samples";
       if (std::abs(crowd->height) < kHorizon) {
         return Finding{CauseKind::not_rejected,
                        some + " lie within " + number(width) + " of the height " +
@@ -136,16 +136,15 @@ std::optional<Finding> find_bad_density(const ReportEvidence& evidence) {
       least = std::min(least, pdf);
       most = std::max(most, pdf);
     }
-    const auto percent = [all](double count) {
-      return number(std::round(1e3 * count / all) / 10) + " % of the domain";
-    };
     if (none > kLargePart * all) {
-      return Finding{CauseKind::not_finite, "pdf() is " + number(example) + " in " + percent(none)};
+      return Finding{CauseKind::not_finite, "pdf() is " + number(example) + " in " +
+                                                percent(none / all) + " of the domain"};
     }
     constexpr double kRounding = 1e-6;
     if (negative > kGoodPart * all && -least > kRounding * most) {
-      return Finding{CauseKind::not_finite,
-                     "pdf() is negative, down to " + number(least) + ", in " + percent(negative)};
+      return Finding{CauseKind::not_finite, "pdf() is negative, down to " + number(least) +
+                                                ", in " + percent(negative / all) +
+                                                " of the domain"};
     }
   }
   return std::nullopt;

@@ -49,25 +49,6 @@ bool is_positive_factor(CauseKind kind) {
   }
 }
 
-/// Whether an explanation says what the blamed function says, and elsewhere nothing: it leaves out
-/// what it should explain.
-bool says_the_same(const Observations& seen, const Explanation& e) {
-  constexpr double kSame = 1e-6;
-  for (std::size_t v = 0; v < seen.views().size(); ++v) {
-    const auto differs = [&](const Place& p) {
-      const double predicted = e.hypothesis->prediction(p, e.numbers[v]);
-      return predicted != kNothingSaid && !(std::abs(predicted - p.base) <= kSame * p.base);
-    };
-    for (const CountedBin& bin : seen.views()[v].bins) {
-      if (std::any_of(bin.nodes.begin(), bin.nodes.end(), differs)) return false;
-    }
-    for (const ExactPoint& point : seen.views()[v].exact) {
-      if (differs(point.place)) return false;
-    }
-  }
-  return true;
-}
-
 class Diagnosis {
  public:
   explicit Diagnosis(const ReportEvidence& evidence) : evidence_(evidence) {}
@@ -180,7 +161,6 @@ class Diagnosis {
     const Observations density = few_exact ? parts.with_exact(seen) : seen;
     const auto all = all_hypotheses(evidence_, blame, density, false);
     auto found = explain(density, all);
-    std::erase_if(found, [&](const Explanation& e) { return says_the_same(density, e); });
     std::vector<Hypothesis> widths;
     if (found.empty()) {
       widths = width_hypotheses(evidence_, blame);

@@ -233,7 +233,7 @@ std::optional<Finding> find_samples_on_a_line(const ReportEvidence& evidence) {
                      "the cosines of samples to the middle of the lobe are the few next to 1 that "
                      "float has: compute 1 − cosθ"};
     }
-    const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
+    const std::string some = percent(share) + " of the samples";
     if (crowded >= varying || (v->pair->domain.dimension() == 1)) {
       if (const auto f = of_made_up_density(*v, some + " lie in one point, " + where)) return f;
       // Of directions both coordinates would have to be clamped; a mirror gives one by itself.
@@ -322,8 +322,8 @@ std::optional<Finding> find_points_not_finite(const ReportEvidence& evidence) {
       bad += s && !is_finite(s->x) ? 1 : 0;
     }
     if (bad > kMany * double{kSamples}) {
-      return Finding{CauseKind::not_finite, number(std::round(1000 * bad / double{kSamples}) / 10) +
-                                                " % of the sampled points are not finite"};
+      return Finding{CauseKind::not_finite,
+                     percent(bad / double{kSamples}) + " of the sampled points are not finite"};
     }
   }
   return std::nullopt;

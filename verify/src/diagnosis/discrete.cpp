@@ -20,8 +20,8 @@ constexpr std::size_t kSamplesEach = 200, kFewestSamples = 100'000, kMostSamples
 struct Counted {
   std::vector<double> pmf, observed;
   double samples = 0, sum = 0;
-  double outside = 0,
-         outside_at = 0;  ///< samples that name what is not there, and the last of them
+  double outside = 0;     ///< samples that name what is not there
+  double outside_at = 0;  ///< the last of them
 };
 
 std::optional<Counted> count(const ViewEvidence& view) {
@@ -55,24 +55,25 @@ std::optional<Counted> count(const ViewEvidence& view) {
 double expected(const Counted& c, std::size_t i) { return c.samples * c.pmf[i] / c.sum; }
 
 /// As often as pmf() says, apart from what it adds up to.
-///
-/// @param chosen_only  leaves out what is never chosen
-bool in_proportion(const Counted& c, bool chosen_only = false) {
+bool in_proportion(const Counted& c) {
   constexpr double kFewestExpected = 10, kLevel = 1e-4;
-  double statistic = 0, degrees = -1, sum = 0;
+  double statistic = 0, degrees = -1;
   for (std::size_t i = 0; i < c.pmf.size(); ++i) {
-    if (!chosen_only || c.observed[i] > 0) sum += c.pmf[i];
-  }
-  for (std::size_t i = 0; i < c.pmf.size(); ++i) {
-    const double e = c.samples * c.pmf[i] / sum;
-    if (e < kFewestExpected || (chosen_only && c.observed[i] == 0)) continue;
+    const double e = expected(c, i);
+    if (e < kFewestExpected) continue;
     statistic += (c.observed[i] - e) * (c.observed[i] - e) / e;
     ++degrees;
   }
   return degrees < 1 || chi_square_tail(statistic, degrees) > kLevel;
 }
 
-std::string percent(double share) { return number(std::round(1e3 * share) / 10) + " %"; }
+Counted without(const Counted& c, std::size_t item) {
+  Counted others = c;
+  others.sum -= c.pmf[item];
+  others.samples -= c.observed[item];
+  others.pmf[item] = others.observed[item] = 0;
+  return others;
+}
 
 /// Share of pmf() on what is never chosen.
 double never_chosen(const Counted& c) {
@@ -94,10 +95,10 @@ std::optional<Finding> explain_discrete(const ReportEvidence& evidence) {
   const Counted& c = *counted;
   constexpr double kMany = 0.005;
   if (c.outside > kMany * (c.outside + c.samples)) {
-    return Finding{CauseKind::support,
-                   percent(c.outside / (c.outside + c.samples)) +
-                       " of the samples name what is not there, as " + number(c.outside_at) +
-                       " of " + number(static_cast<double>(c.pmf.size())) + " from 0 on"};
+    return Finding{CauseKind::support, percent(c.outside / (c.outside + c.samples)) +
+                                           " of the samples name what is not there, as " +
+                                           number(c.outside_at) + " of " +
+                                           number(std::uint64_t{c.pmf.size()}) + " from 0 on"};
   }
   if (in_proportion(c)) {
     constexpr double kOne = 1e-4;
@@ -110,12 +111,13 @@ std::optional<Finding> explain_discrete(const ReportEvidence& evidence) {
                                  : ", and is in proportion to how often each is chosen")};
   }
   const double never = never_chosen(c);
-  const auto unchosen = std::find(c.observed.begin(), c.observed.end(), 0.0);
+  const auto unchosen = static_cast<std::size_t>(
+      std::find(c.observed.begin(), c.observed.end(), 0.0) - c.observed.begin());
   if (never > 0 && std::count(c.observed.begin(), c.observed.end(), 0.0) == 1 &&
-      in_proportion(c, true)) {
+      in_proportion(without(c, unchosen))) {
     return Finding{CauseKind::support,
-                   "item " + number(static_cast<double>(unchosen - c.observed.begin())) + " of " +
-                       number(static_cast<double>(c.pmf.size())) +
+                   "item " + number(std::uint64_t{unchosen}) + " of " +
+                       number(std::uint64_t{c.pmf.size()}) +
                        " is never chosen, the others in proportion: an index too few?"};
   }
   const auto [least, most_likely] = std::minmax_element(c.pmf.begin(), c.pmf.end());

@@ -45,6 +45,25 @@ std::optional<Explanation> try_one(const Observations& observations, const Hypot
   return e;
 }
 
+/// Whether an explanation says what the blamed function says, and elsewhere nothing: it leaves out
+/// what it should explain.
+bool says_the_same(const Observations& seen, const Explanation& e) {
+  constexpr double kSame = 1e-6;
+  for (std::size_t v = 0; v < seen.views().size(); ++v) {
+    const auto differs = [&](const Place& p) {
+      const double predicted = e.hypothesis->prediction(p, e.numbers[v]);
+      return predicted != kNothingSaid && !(std::abs(predicted - p.base) <= kSame * p.base);
+    };
+    for (const CountedBin& bin : seen.views()[v].bins) {
+      if (std::any_of(bin.nodes.begin(), bin.nodes.end(), differs)) return false;
+    }
+    for (const ExactPoint& point : seen.views()[v].exact) {
+      if (differs(point.place)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<Explanation> explain(const Observations& observations,
@@ -53,7 +72,8 @@ std::vector<Explanation> explain(const Observations& observations,
   constexpr std::size_t kFewestExact = 40;
   for (const Hypothesis& h : hypotheses) {
     if (h.needs_exact && observations.exact() < kFewestExact) continue;
-    if (auto e = try_one(observations, h)) admissible.push_back(std::move(*e));
+    auto e = try_one(observations, h);
+    if (e && !says_the_same(observations, *e)) admissible.push_back(std::move(*e));
   }
   std::stable_sort(admissible.begin(), admissible.end(),
                    [](const Explanation& a, const Explanation& b) { return a.cost < b.cost; });

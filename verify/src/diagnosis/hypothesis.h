@@ -46,7 +46,7 @@ struct Explanation {
 /// Free numbers cost more than any complexity does.
 inline constexpr double kPerNumber = 100;
 
-/// The admissible ones, simplest first.
+/// The admissible ones, simplest first, but for those that say nothing else than what is stated.
 std::vector<Explanation> explain(const Observations& observations,
                                  const std::vector<Hypothesis>& hypotheses);
 

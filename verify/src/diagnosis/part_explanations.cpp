@@ -334,9 +334,8 @@ std::optional<Finding> PartExplanations::by_parts(bool only_steady) {
     share = std::max(share, shares[i]);
   }
   if (high - low < 1e-3 * high && high > 1.2 * share && !shown->pieces) {
-    return Finding{CauseKind::support, chosen + ", which is " +
-                                           number(std::round(1e3 * high) / 10) +
-                                           " % of pdf(): where the rest of it is, no sample falls"};
+    return Finding{CauseKind::support, chosen + ", which is " + percent(high) +
+                                           " of pdf(): where the rest of it is, no sample falls"};
   }
   return Finding{CauseKind::numbers_reused,
                  chosen +

@@ -50,7 +50,7 @@ std::optional<Finding> explain_atoms(const ReportEvidence& evidence, const Obser
 namespace {
 
 std::string where_none_falls(double never) {
-  return "no sample falls where " + number(std::round(1e3 * never) / 10) + " % of pdf() is, and ";
+  return "no sample falls where " + percent(never) + " of pdf() is, and ";
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ std::optional<Cause> explain_strays(const ReportEvidence& evidence, const Observ
   if (strays == 0 || share > kAll) return std::nullopt;
   const Observations inside = density.without_strays();
   if (!inside.judge(as_stated).admissible) return of_overshoot(evidence, inside, strays, share);
-  const std::string some = number(std::round(1e3 * share) / 10) + " % of the samples";
+  const std::string some = percent(share) + " of the samples";
   // At most about half of a reflected lobe lies below the horizon, at grazing angles.
   constexpr double kMostBelow = 0.6;
   if (beyond > 0.98 * strays && share < kMostBelow) {

@@ -146,12 +146,7 @@ void JointBins::integrate(const ContractOptions& options) {
   Random own = random_for(options.seed, Stream::joint_own_nodes);
   question.draw_own = [&](std::size_t count) { return draw_points(pair_, cube_, count, own); };
   std::vector<CubePoint> points = question.pilot;
-  for (std::size_t d = 0; d < cube_.dimension(); ++d) {
-    std::vector<double> values;
-    values.reserve(points.size());
-    for (const CubePoint& p : points) values.push_back(p[d]);
-    on_lines_ = std::max(on_lines_, shared_values(std::move(values), pair_.epsilon).share);
-  }
+  on_lines_ = share_on_lines(points, cube_.dimension(), pair_.epsilon);
   tree_.emplace(points, depth_, cube_.dimension(), pair_.epsilon);
   expected_ = integrate_cube(question, *tree_, cube_.dimension());
 }

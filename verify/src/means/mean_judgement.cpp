@@ -294,15 +294,15 @@ CheckResult judge_mean(const MeanQuestion& q, const Evidence& seen) {
                {Figure::largest_share, seen.largest_share},
                {Figure::rejected, static_cast<double>(seen.rejected)},
                {Figure::non_finite, static_cast<double>(seen.non_finite)}};
-  if (seen.non_finite == 0 && !std::isfinite(seen.estimate + seen.standard_error)) {
-    r.reason = "the samples are finite, their sum or the squares of their deviations are not";
-    r.advice = "divide samples and answer by the size of the answer";
-    return r;
-  }
   if (seen.non_finite > 0) {
     r.verdict = Verdict::fail;
     r.reason = number(seen.non_finite) + " of " + number(seen.samples + seen.non_finite) +
                " samples were not finite";
+    return r;
+  }
+  if (!std::isfinite(seen.estimate) || !std::isfinite(seen.standard_error)) {
+    r.reason = "the samples are finite, their sum or the squares of their deviations are not";
+    r.advice = "divide samples and answer by the size of the answer";
     return r;
   }
   const bool exact = knows_variance(q);

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "pairs/batches.h"
@@ -157,17 +156,9 @@ void BinnedPair::integrate_density(const ContractOptions& options, double mass_e
   const std::size_t own = draws_for(pair_, std::max(kPilotsPerBin << depth_, kLeastPilots), random);
   std::vector<Point2> pilot = draw_own(pair_, own, random);
   tree_.emplace(pilot, depth_, pair_.domain.dimension(), pair_.epsilon);
-  measure_lines(pilot);
+  on_lines_ =
+      share_on_lines(pilot, static_cast<std::size_t>(pair_.domain.dimension()), pair_.epsilon);
   expected_ = integrate_over(*tree_, pair_, {}, own, options, mass_error);
-}
-
-void BinnedPair::measure_lines(const std::vector<Point2>& pilot) {
-  for (int d = 0; d < pair_.domain.dimension(); ++d) {
-    std::vector<double> values;
-    values.reserve(pilot.size());
-    for (const Point2& p : pilot) values.push_back(p[static_cast<std::size_t>(d)]);
-    on_lines_ = std::max(on_lines_, shared_values(std::move(values), pair_.epsilon).share);
-  }
 }
 
 MassIntegral integrate_over_domain(const SamplingPair& pair, const Many<double(Vec3)>& function,

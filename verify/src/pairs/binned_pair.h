@@ -97,7 +97,6 @@ class BinnedPair {
   void tabulate_discrete();
   void measure_rounding(std::uint64_t seed);
   void measure_lattice();
-  void measure_lines(const std::vector<Point2>& pilot);
   void count_atom(const SampleRecord& sample);
   void count(std::span<const std::optional<SampleRecord>> samples);
   bool inside(const Vec3& x) const;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace plumbline::verify {
@@ -16,5 +19,19 @@ struct SharedValues {
 /// @param values      of one coordinate, each in [0, 1]
 /// @param resolution  rounding unit of the samples
 SharedValues shared_values(std::vector<double> values, double resolution);
+
+/// Share of points that have a coordinate in common with many others: the largest of all
+/// coordinates.
+template <class Point>
+double share_on_lines(const std::vector<Point>& points, std::size_t dimension, double resolution) {
+  double share = 0;
+  for (std::size_t d = 0; d < dimension; ++d) {
+    std::vector<double> values;
+    values.reserve(points.size());
+    for (const Point& p : points) values.push_back(p[d]);
+    share = std::max(share, shared_values(std::move(values), resolution).share);
+  }
+  return share;
+}
 
 }  // namespace plumbline::verify
