@@ -32,15 +32,6 @@ bool is_of(const renderer::RenderState& state, const merging::Shard& shard) {
   return true;
 }
 
-/// Of the pixels that are rendered here.
-std::uint32_t most_drawn(const renderer::RenderState& state) {
-  std::uint32_t most = 0;
-  for (const std::uint32_t drawn : state.drawn) {
-    if (output::is_here(drawn)) most = std::max(most, drawn);
-  }
-  return most;
-}
-
 void add_allocation(const renderer::RenderOptions& options, output::CheckpointSettings& settings) {
   const renderer::AllocationOptions& allocation = *options.allocation;
   settings["allocation"] =
@@ -111,11 +102,12 @@ Checkpoints::Checkpoints(CheckpointArguments arguments, output::Files& files)
   if (!arguments_.file.empty()) files.writes("--checkpoint", arguments_.file);
 }
 
-void Checkpoints::attach(const renderer::SceneDescription& scene, renderer::Accelerator accelerator,
+void Checkpoints::attach(const renderer::SceneDescription& scene,
+                         const output::CheckpointSettings& settings,
                          renderer::RenderOptions& options) {
   options.interruptions.stop = [] { return output::stop_signal() != 0; };
   if (arguments_.file.empty() && arguments_.resume.empty()) return;
-  settings_ = checkpoint_settings(scene, accelerator, options);
+  settings_ = settings;
   const merging::Shard shard = merging::parse_shard(arguments_.shard);
   const auto state = std::make_shared<renderer::RenderState>(
       fresh_state(scene.camera.width, scene.camera.height, options));
@@ -130,7 +122,7 @@ void Checkpoints::attach(const renderer::SceneDescription& scene, renderer::Acce
     if (!is_of(checkpoint.state, shard)) {
       throw renderer::InputError(arguments_.resume + ": is of another --shard");
     }
-    const std::uint32_t drawn = most_drawn(checkpoint.state);
+    const std::uint32_t drawn = output::most_drawn(checkpoint.state.drawn);
     if (drawn > options.samples_per_pixel) {
       throw renderer::InputError(fmt::format("{}: holds {} samples per pixel, more than --spp {}",
                                              arguments_.resume, drawn, options.samples_per_pixel));

@@ -22,7 +22,8 @@ struct CheckpointArguments {
 /// Adds --checkpoint, --every, --resume and --shard.
 void add_checkpoint_options(options::Command& command, CheckpointArguments& arguments);
 
-/// All that the samples of a render depend on: two renders with the same are of one image.
+/// All that the samples of a render depend on: two renders with the same are of one image. Reads
+/// the scene's files.
 ///
 /// @param accelerator  that the scene was made with
 output::CheckpointSettings checkpoint_settings(const renderer::SceneDescription& scene,
@@ -38,10 +39,10 @@ class Checkpoints {
 
   /// Makes the options those of a render that is kept and, where that was asked for, gone on with.
   ///
-  /// @param accelerator  that the scene was made with
-  /// @param options      all else is set; kept as long as this
+  /// @param settings  `checkpoint_settings` of these
+  /// @param options   all else is set; kept as long as this
   /// @throws renderer::InputError for a checkpoint of another render, with what is another
-  void attach(const renderer::SceneDescription& scene, renderer::Accelerator accelerator,
+  void attach(const renderer::SceneDescription& scene, const output::CheckpointSettings& settings,
               renderer::RenderOptions& options);
 
   /// How to go on with a render that was stopped, as a sentence.

@@ -1,12 +1,9 @@
 #include "render_by_ranks.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,24 +31,6 @@ std::string packed(Next next, int signal, const RenderState& part) {
 }
 
 constexpr std::size_t kHeader = 2;
-
-/// Settings as lines after the name of a rank; and back, so that they can be compared by name.
-std::string lines_of(const std::string& rank, const output::CheckpointSettings& settings) {
-  std::string lines = rank;
-  for (const auto& [name, value] : settings) lines += fmt::format("\n{}={}", name, value);
-  return lines;
-}
-
-output::CheckpointSettings settings_of(const std::string& lines, std::string& rank) {
-  std::istringstream in(lines);
-  std::getline(in, rank);
-  output::CheckpointSettings settings;
-  for (std::string line; std::getline(in, line);) {
-    const std::size_t equals = line.find('=');
-    settings[line.substr(0, equals)] = line.substr(equals + 1);
-  }
-  return settings;
-}
 
 class RankedRender {
  public:
@@ -111,7 +90,7 @@ class RankedRender {
     }
     keep_only(shard_, own);
     own_ = std::make_shared<const RenderState>(std::move(own));
-    if (ranks_.is_first()) finish_whole();
+    if (ranks_.is_first()) whole_.sum_all_replicates();
   }
 
   /// Samples per pixel where the first rank looks at limits next; 0 at the end.
@@ -167,7 +146,7 @@ class RankedRender {
       take(ranks_.receive(mpi::kAnyRank));
       if (is_due()) keep_whole();
     }
-    finish_whole();
+    whole_.sum_all_replicates();
   }
 
   void take(const mpi::Message& message) {
@@ -188,13 +167,6 @@ class RankedRender {
     whole_.seconds = seconds_before_ + seconds_since(start_);
     if (options_.interruptions.keep) options_.interruptions.keep(whole_, true);
     kept_ = Clock::now();
-  }
-
-  /// Under Sobol the film is what the replicates make of it.
-  void finish_whole() {
-    for (std::size_t i = 0; !whole_.replicates.empty() && i < whole_.drawn.size(); ++i) {
-      whole_.sum_replicates(i);
-    }
   }
 
   /// As `render` ends.
@@ -227,12 +199,11 @@ class RankedRender {
 }  // namespace
 
 void require_one_render(mpi::Ranks& ranks, const output::CheckpointSettings& settings) {
-  const std::vector<std::string> all = gather(ranks, lines_of(ranks.name(), settings));
+  const std::vector<std::string> names = gather(ranks, ranks.name());
+  const std::vector<std::string> all = gather(ranks, output::bytes_of_settings(settings));
   agree(ranks, [&] {
-    for (const std::string& lines : all) {
-      std::string rank;
-      const output::CheckpointSettings its = settings_of(lines, rank);
-      output::require_same(rank, its, settings);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      output::require_same(names[i], output::settings_of_bytes(all[i]), settings);
     }
   });
 }

@@ -167,7 +167,8 @@ struct Job {
   explicit Job(const RenderArguments& arguments)
       : description(described(arguments)),
         scene(renderer::make_scene(description)),
-        options(render_options(arguments, description)) {}
+        options(render_options(arguments, description)),
+        settings(checkpoint_settings(description, accelerator_of(scene), options)) {}
 
   static renderer::SceneDescription described(const RenderArguments& arguments) {
     renderer::SceneDescription description =
@@ -181,6 +182,7 @@ struct Job {
   renderer::SceneDescription description;
   renderer::Scene scene;
   renderer::RenderOptions options;
+  output::CheckpointSettings settings;  ///< of the files as they were before
 };
 
 /// All that a render writes.
@@ -196,7 +198,7 @@ class Outputs {
   /// To be called before the render.
   void attach(Job& job) {
     for (const std::filesystem::path& file : job.description.files) files_.reads(file);
-    checkpoints_.attach(job.description, accelerator_of(job.scene), job.options);
+    checkpoints_.attach(job.description, job.settings, job.options);
   }
 
   /// @return the exit code
@@ -230,9 +232,7 @@ void Outputs::write_files(const Job& job, const renderer::RenderResult& result,
   if (!output_.is_device()) record.image = arguments_.output;
   renderer::Image image = to_image(result.film);
   image.metadata = metadata(record);
-  image.metadata.merge(
-      origin(checkpoint_settings(job.description, accelerator_of(job.scene), job.options),
-             job.options, result, arguments_.checkpoint.shard));
+  image.metadata.merge(origin(job.settings, job.options, result, arguments_.checkpoint.shard));
   if (!arguments_.checkpoint.shard.empty()) image.metadata["shard"] = arguments_.checkpoint.shard;
   if (result.stopped) image.metadata["stopped"] = stopped_at(job.options, result);
   output_.fill([&](const auto& path) { write_exr(path, image); });
@@ -273,8 +273,7 @@ int render_in_rank(const RenderArguments& arguments, mpi::Ranks& ranks) {
     if (outputs) outputs->attach(*job);
     require_renderable(job->options);
   });
-  require_one_render(
-      ranks, checkpoint_settings(job->description, accelerator_of(job->scene), job->options));
+  require_one_render(ranks, job->settings);
   const std::unique_ptr<Progress> progress = outputs ? tell_of(arguments, *job) : nullptr;
   const output::StopRequests stops_at_signals;
   const double every = arguments.checkpoint.file.empty() ? 0 : arguments.checkpoint.every;

@@ -10,10 +10,10 @@
 #include <plumbline/merging/sample_range.h>
 #include <plumbline/renderer/core/errors.h>
 
+#include "render_arguments.h"
+
 namespace plumbline::tools {
 namespace {
-
-constexpr std::uint32_t kMaxSample = 1u << 31;
 
 /// Of a Sobol' sequence the points k·2^m … (k + 1)·2^m − 1 are a net of their own; others are parts
 /// of nets, and the samples before them the other parts.
@@ -42,7 +42,7 @@ void add_sample_range_option(options::Command& command, renderer::RenderOptions&
       .add("--first-sample", options.first_sample,
            "Number of the first sample of each pixel, 0 without it: the seed's samples from there "
            "on, to be merged with those before. Under sobol a multiple of --spp")
-      .whole_number(0, kMaxSample - 1)
+      .whole_number(0, kMaxSamples - 1)
       .excludes("--seconds")
       .excludes("--error")
       .type("K");
@@ -50,9 +50,9 @@ void add_sample_range_option(options::Command& command, renderer::RenderOptions&
 
 void check_first_sample(const renderer::RenderOptions& options) {
   if (options.first_sample == 0) return;
-  if (options.samples_per_pixel > kMaxSample - options.first_sample) {
+  if (options.samples_per_pixel > kMaxSamples - options.first_sample) {
     throw renderer::InputError(fmt::format("--first-sample {}: there are {} samples, not {} more",
-                                           options.first_sample, kMaxSample,
+                                           options.first_sample, kMaxSamples,
                                            options.samples_per_pixel));
   }
   if (options.sampler == renderer::SamplerType::sobol) require_whole_nets(options);
@@ -60,11 +60,7 @@ void check_first_sample(const renderer::RenderOptions& options) {
 
 std::uint64_t end_sample(const renderer::RenderOptions& options,
                          const renderer::RenderResult& result) {
-  std::uint32_t most = 0;
-  for (const std::uint32_t drawn : result.drawn) {
-    if (output::is_here(drawn)) most = std::max(most, drawn);
-  }
-  return std::uint64_t{options.first_sample} + most;
+  return std::uint64_t{options.first_sample} + output::most_drawn(result.drawn);
 }
 
 std::map<std::string, std::string> origin(const output::CheckpointSettings& settings,

@@ -274,6 +274,7 @@ TEST_F(Merging, OfOtherRendersIsRefusedWithWhatIsAnother) {
       {"--light-selection power", "light_selection: kept of power, asked for uniform"},
       {"--max-depth 1", "max_depth: kept of 1, asked for 2"},
       {"--roulette 2", "roulette_depth: kept of 2, asked for 5"},
+      {"--accelerator embree", "accelerator: kept of embree, asked for brute_force"},
       {"-D radius=0.3", "scene_content: kept of "}};
   for (const auto& [options, why] : others) {
     render("other", "--spp 4 --seed 1 " + options);

@@ -46,8 +46,7 @@ class RenderLoop {
         before_{state_.counters, state_.seconds},
         progress_(options.progress, state_.drawn.size() * options.samples_per_pixel),
         samplers_(make_sampler) {
-    if (dealt().empty()) return;
-    for (std::size_t i = 0; i < state_.drawn.size(); ++i) state_.sum_replicates(i);
+    state_.sum_all_replicates();
   }
 
   LoopResult run() {
@@ -190,6 +189,11 @@ void RenderState::sum_replicates(std::size_t pixel) {
   for (const PixelMoments& replicate : std::span(replicates).subspan(pixel * of_each, of_each)) {
     sum.add_replicate(replicate);
   }
+}
+
+void RenderState::sum_all_replicates() {
+  if (replicates.empty()) return;
+  for (std::size_t i = 0; i < drawn.size(); ++i) sum_replicates(i);
 }
 
 RenderState fresh_state(int width, int height, const SamplingOptions& options) {

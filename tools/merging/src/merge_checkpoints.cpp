@@ -59,13 +59,10 @@ class CheckpointSum {
     }
     require_other_samples(part, state.drawn);
     add_moments(state);
-    std::uint32_t most = 0;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (!output::is_here(state.drawn[i])) continue;
-      samples_[i] += state.drawn[i];
-      most = std::max(most, state.drawn[i]);
+      if (output::is_here(state.drawn[i])) samples_[i] += state.drawn[i];
     }
-    range.end = range.first + most;
+    range.end = range.first + output::most_drawn(state.drawn);
     range.shard = shard_of(state.drawn);
     of_seed_.push_back(std::move(state.drawn));
     parts_.push_back(part);
@@ -116,8 +113,8 @@ class CheckpointSum {
 
   /// No more replicates of this seed will come.
   void end_seed() {
+    replicates_.sum_all_replicates();
     for (std::size_t i = 0; i < replicates_.drawn.size(); ++i) {
-      replicates_.sum_replicates(i);
       film_.pixels()[i].merge(replicates_.film.pixels()[i]);
     }
     replicates_ = {};
@@ -131,13 +128,10 @@ class CheckpointSum {
                                                {"samples", least_samples(samples_)},
                                                {"merged", std::to_string(parts_.size())},
                                                {"non_finite", std::to_string(film_.non_finite())}};
-    const std::pair<const char*, const char*> names[] = {
-        {"strategy", "strategy"},       {"heuristic", "heuristic"},
-        {"sampler", "sampler"},         {"replicates", "replicates"},
-        {"version", "version"},         {"light_selection", "light selection"},
-        {"accelerator", "accelerator"}, {"max_depth", "maximum depth"}};
-    for (const auto& [name, setting] : names) data[name] = settings_.at(setting);
-    data.merge(header_of(settings_));
+    for (const HeaderName& name : kHeaderNames) {
+      const auto found = settings_.find(name.setting);
+      if (found != settings_.end()) data[name.header] = found->second;
+    }
     return data;
   }
 
@@ -153,12 +147,9 @@ class CheckpointSum {
 
 std::map<std::string, std::string> header_of(const output::CheckpointSettings& settings) {
   std::map<std::string, std::string> data;
-  for (std::string name :
-       {"scene content", "roulette depth", "counts", "light probability", "allocation"}) {
-    const auto found = settings.find(name);
-    if (found == settings.end()) continue;
-    std::replace(name.begin(), name.end(), ' ', '_');
-    data[name] = found->second;
+  for (const HeaderName& name : kHeaderNames) {
+    const auto found = settings.find(name.setting);
+    if (!name.in_record && found != settings.end()) data[name.header] = found->second;
   }
   return data;
 }

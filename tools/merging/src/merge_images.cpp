@@ -49,11 +49,9 @@ std::vector<SampleRange> ranges_of(const std::string& file, const renderer::Imag
 /// All that another picture of the same thing has in common with it.
 output::CheckpointSettings settings_of(const renderer::Image& image) {
   output::CheckpointSettings settings = {{"size", fmt::format("{}x{}", image.width, image.height)}};
-  for (const char* key :
-       {"scene_content", "strategy", "heuristic", "sampler", "replicates", "light_selection",
-        "max_depth", "roulette_depth", "counts", "light_probability", "allocation", "version"}) {
-    const std::string text = text_of(image, key);
-    if (!text.empty()) settings[key] = text;
+  for (const HeaderName& name : kHeaderNames) {
+    const std::string text = text_of(image, name.header);
+    if (!text.empty()) settings[name.header] = text;
   }
   // What an allocation learns depends on how many samples there are.
   if (settings.contains("allocation")) settings["samples"] = text_of(image, "samples");

@@ -25,6 +25,27 @@ struct Part {
   std::vector<SampleRange> holds;
 };
 
+/// A setting that the samples of a picture depend on, and what its header calls it.
+struct HeaderName {
+  const char* header;
+  const char* setting;  ///< output::CheckpointSettings
+  bool in_record;       ///< `render` writes it with its record
+};
+
+inline constexpr HeaderName kHeaderNames[] = {{"scene_content", "scene content", false},
+                                              {"strategy", "strategy", true},
+                                              {"heuristic", "heuristic", true},
+                                              {"sampler", "sampler", true},
+                                              {"replicates", "replicates", true},
+                                              {"light_selection", "light selection", true},
+                                              {"accelerator", "accelerator", true},
+                                              {"max_depth", "maximum depth", true},
+                                              {"roulette_depth", "roulette depth", false},
+                                              {"counts", "counts", false},
+                                              {"light_probability", "light probability", false},
+                                              {"allocation", "allocation", false},
+                                              {"version", "version", true}};
+
 /// Digits alone.
 inline std::optional<std::uint64_t> whole_number(std::string_view text) {
   std::uint64_t number = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
@@ -161,6 +162,22 @@ CheckpointSettings read_settings(Reader& in) {
   return settings;
 }
 
+/// A name or value in one line.
+std::string in_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  return text;
+}
+
+void put_settings(Writer& out, const CheckpointSettings& settings) {
+  out.put(fmt::format("{}\n", kFormat));
+  for (const auto& [name, value] : settings) {
+    out.put(fmt::format("{}={}\n", in_line(name), in_line(value)));
+  }
+  out.put("\n");
+}
+
 void put_state(Writer& out, const RenderState& state) {
   const Counts counts{static_cast<std::uint32_t>(state.film.width()),
                       static_cast<std::uint32_t>(state.film.height()), state.replicates.size(),
@@ -189,26 +206,22 @@ RenderState read_state(Reader& in, const Counts& counts) {
   return state;
 }
 
-/// A name or value in one line.
-std::string in_line(std::string text) {
-  for (char& c : text) {
-    if (c == '\n') c = ' ';
-  }
-  return text;
-}
-
 }  // namespace
+
+std::uint32_t most_drawn(const std::vector<std::uint32_t>& drawn) {
+  std::uint32_t most = 0;
+  for (const std::uint32_t samples : drawn) {
+    if (is_here(samples)) most = std::max(most, samples);
+  }
+  return most;
+}
 
 void write_checkpoint(const fs::path& path, const CheckpointSettings& settings,
                       const RenderState& state) {
   std::ofstream file(path, std::ios::binary);
   if (!file) throw_errno(path.string(), "cannot be written to", errno);
   Writer out(file);
-  out.put(fmt::format("{}\n", kFormat));
-  for (const auto& [name, value] : settings) {
-    out.put(fmt::format("{}={}\n", in_line(name), in_line(value)));
-  }
-  out.put("\n");
+  put_settings(out, settings);
   put_state(out, state);
   out.finish();
   file.close();
@@ -240,6 +253,19 @@ std::string bytes_of_state(const RenderState& state) {
   put_state(out, state);
   out.finish();
   return std::move(bytes).str();
+}
+
+std::string bytes_of_settings(const CheckpointSettings& settings) {
+  std::ostringstream bytes;
+  Writer out(bytes);
+  put_settings(out, settings);
+  return std::move(bytes).str();
+}
+
+CheckpointSettings settings_of_bytes(const std::string& bytes) {
+  std::istringstream stream(bytes);
+  Reader in(stream, "settings of a render", bytes.size());
+  return read_settings(in);
 }
 
 RenderState state_of_bytes(const std::string& bytes) {

@@ -21,6 +21,9 @@ using CheckpointSettings = std::map<std::string, std::string>;
 inline constexpr std::uint32_t kElsewhere = std::numeric_limits<std::uint32_t>::max();
 constexpr bool is_here(std::uint32_t drawn) { return drawn != kElsewhere; }
 
+/// Samples of the pixel that has most, of those that are rendered here.
+std::uint32_t most_drawn(const std::vector<std::uint32_t>& drawn);
+
 struct Checkpoint {
   CheckpointSettings settings;
   renderer::RenderState state;
@@ -35,11 +38,14 @@ void write_checkpoint(const std::filesystem::path& path, const CheckpointSetting
 /// @throws renderer::InputError for what is no checkpoint, is torn or was changed
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
-/// A state alone, as a checkpoint holds it: for another process of the same program.
+/// A state, or settings, alone, as a checkpoint holds them: for another process of the same
+/// program.
 std::string bytes_of_state(const renderer::RenderState& state);
+std::string bytes_of_settings(const CheckpointSettings& settings);
 
-/// @throws renderer::InputError for what `bytes_of_state` does not make
+/// @throws renderer::InputError for what these do not make
 renderer::RenderState state_of_bytes(const std::string& bytes);
+CheckpointSettings settings_of_bytes(const std::string& bytes);
 
 /// What a checkpoint is of, before it is read as a whole: whether it is torn is not seen.
 ///

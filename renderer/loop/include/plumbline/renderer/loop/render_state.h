@@ -26,6 +26,9 @@ struct RenderState {
 
   /// Makes a pixel of the film what its replicates come to.
   void sum_replicates(std::size_t pixel);
+
+  /// All of them; nothing where there are no replicates.
+  void sum_all_replicates();
 };
 
 /// How a render is stopped, kept, and gone on with. All may be empty. What is asked for is looked
