@@ -171,8 +171,7 @@ std::uint32_t next_look(std::uint32_t done, const SamplingOptions& options) {
 bool is_good_enough(const RenderState& state, const SamplingOptions& options) {
   const std::uint32_t done = state.least_drawn();
   if (!(options.relative_error > 0) || done < 2 || !std::has_single_bit(done)) return false;
-  const auto is_at_look = [done](std::uint32_t drawn) { return drawn == done; };
-  return std::all_of(state.drawn.begin(), state.drawn.end(), is_at_look) &&
+  return std::all_of(state.drawn.begin(), state.drawn.end(), [&](auto n) { return n == done; }) &&
          state.film.relative_error() <= options.relative_error;
 }
 
@@ -192,8 +191,7 @@ void RenderState::sum_replicates(std::size_t pixel) {
 }
 
 void RenderState::sum_all_replicates() {
-  if (replicates.empty()) return;
-  for (std::size_t i = 0; i < drawn.size(); ++i) sum_replicates(i);
+  for (std::size_t i = 0; i < drawn.size() && !replicates.empty(); ++i) sum_replicates(i);
 }
 
 RenderState fresh_state(int width, int height, const SamplingOptions& options) {

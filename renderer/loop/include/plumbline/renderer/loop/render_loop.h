@@ -85,7 +85,6 @@ void require_known_error(const SamplingOptions& options);
 
 /// Renders an image. The same samples give the same bits, whatever the number of threads or passes,
 /// and however often it was stopped and gone on with.
-///
 /// @throws InputError for what `require_known_error` refuses
 LoopResult run_render_loop(const Camera& camera, const SamplingOptions& options,
                            const SamplerFactory& make_sampler);

@@ -24,10 +24,8 @@ struct RenderState {
   /// Samples that every pixel has; without pixels, the largest number.
   std::uint32_t least_drawn() const;
 
-  /// Makes a pixel of the film what its replicates come to.
+  /// Makes a pixel of the film, or all, what the replicates come to; all: nothing without them.
   void sum_replicates(std::size_t pixel);
-
-  /// All of them; nothing where there are no replicates.
   void sum_all_replicates();
 };
 
