@@ -124,14 +124,15 @@ TEST(Duet, RefusesWhatIsNoDuet) {
 TEST(Duet, IntervalsHoldTheTruth) {
   Slots slots;
   slots.slowdown = 0.02;
-  // 95 % are stated; 8.6 standard errors of a share of 2,000 are 4.2 %.
+  // 95 % are stated; 93.6 % of 100,000 hold, and 93.3 % of those of 16 pairs. Of 2,000 the share
+  // would have to be 5 standard errors lower to leave 88 % unproven.
   const auto holds = [](const std::vector<DuetPair>& pairs) {
     const DuetRatio r = duet_ratio(pairs, 0.95);
     return r.low <= 1.02 && 1.02 <= r.high;
   };
-  tests::expect_verdict(share_of_duets("history/duet/coverage", slots, 0.9, 1, holds));
+  tests::expect_verdict(share_of_duets("history/duet/coverage", slots, 0.88, 1, holds));
   slots.pairs = 16;
-  tests::expect_verdict(share_of_duets("history/duet/coverage of 16", slots, 0.9, 1, holds));
+  tests::expect_verdict(share_of_duets("history/duet/coverage of 16", slots, 0.88, 1, holds));
 }
 
 TEST(Duet, FindsTwoPercentInOneNight) {

@@ -83,7 +83,7 @@ TEST(History, WhichWayIsGoodDecidesWhatARegressionIs) {
 }
 
 TEST(History, ThereAndBackAreTwoChanges) {
-  const Series series = noisy_nights("history/there and back", 60, 0.01,
+  const Series series = noisy_nights("history/there and back", 60, kSpread,
                                      [](int i) { return i >= 20 && i < 40 ? 1.08 : 1.0; });
   const HistoryJudgement judged = judge_history(series, rare_alarms());
   ASSERT_EQ(judged.changes.size(), 2u);
