@@ -30,7 +30,7 @@ void add_allocation_options(options::Command& command, AllocationArguments& argu
                           fmt::join(names_of(renderer::kAllocations), ", ")))
           .type("NAME");
   for (const char* other : {"--strategy", "--heuristic", "--counts", "--light-probability",
-                            "--sampler", "--seconds", "--error"}) {
+                            "--sampler", "--adaptive", "--seconds", "--error"}) {
     allocation.excludes(other);
   }
   const auto add = [&](const char* option, auto& value, const char* meaning, const char* type) {

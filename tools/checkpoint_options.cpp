@@ -19,10 +19,11 @@ namespace plumbline::tools {
 namespace {
 
 /// A state is what the options make of one, whatever the file says.
-bool fits(const renderer::RenderState& state, const renderer::RenderState& fresh) {
+bool fits(const renderer::RenderState& state, const renderer::RenderState& fresh, bool adaptive) {
   return state.film.width() == fresh.film.width() && state.film.height() == fresh.film.height() &&
          state.replicates.size() == fresh.replicates.size() &&
-         state.bsdf_counts.size() == fresh.bsdf_counts.size();
+         state.bsdf_counts.size() == fresh.bsdf_counts.size() &&
+         (state.needs.empty() || (adaptive && state.needs.size() == state.drawn.size()));
 }
 
 bool is_of(const renderer::RenderState& state, const merging::Shard& shard) {
@@ -30,6 +31,18 @@ bool is_of(const renderer::RenderState& state, const merging::Shard& shard) {
     if (output::is_here(state.drawn[i]) != shard.has(i)) return false;
   }
   return true;
+}
+
+/// Of each pixel as many as are asked for, or fewer.
+void require_no_more(const std::string& file, const renderer::RenderState& state,
+                     const renderer::RenderOptions& options) {
+  renderer::SampleCounts counts = sample_counts(state, options);
+  counts.set_level(options.samples_per_pixel);
+  for (std::size_t i = 0; i < state.drawn.size(); ++i) {
+    if (!output::is_here(state.drawn[i]) || state.drawn[i] <= counts.of(i)) continue;
+    throw renderer::InputError(fmt::format("{}: holds {} samples of a pixel, more than --spp {}",
+                                           file, state.drawn[i], options.samples_per_pixel));
+  }
 }
 
 void add_allocation(const renderer::RenderOptions& options, output::CheckpointSettings& settings) {
@@ -65,6 +78,7 @@ void add_checkpoint_options(options::Command& command, CheckpointArguments& argu
       .needs("--checkpoint")
       .excludes("--seconds")
       .excludes("--error")
+      .excludes("--adaptive")
       .type("I/N");
 }
 
@@ -92,6 +106,7 @@ output::CheckpointSettings checkpoint_settings(const renderer::SceneDescription&
       {"first sample", std::to_string(options.first_sample)},
       {"version", PLUMBLINE_VERSION},
   };
+  if (options.adaptive) settings["adaptive"] = fmt::format("pilot of {}", pilot_samples(options));
   if (options.allocation) add_allocation(options, settings);
   return settings;
 }
@@ -116,17 +131,13 @@ void Checkpoints::attach(const renderer::SceneDescription& scene,
   } else {
     output::Checkpoint checkpoint = output::read_checkpoint(arguments_.resume);
     output::require_same(arguments_.resume, checkpoint.settings, settings_);
-    if (!fits(checkpoint.state, *state)) {
+    if (!fits(checkpoint.state, *state, options.adaptive)) {
       throw renderer::InputError(arguments_.resume + ": does not hold what it says");
     }
     if (!is_of(checkpoint.state, shard)) {
       throw renderer::InputError(arguments_.resume + ": is of another --shard");
     }
-    const std::uint32_t drawn = output::most_drawn(checkpoint.state.drawn);
-    if (drawn > options.samples_per_pixel) {
-      throw renderer::InputError(fmt::format("{}: holds {} samples per pixel, more than --spp {}",
-                                             arguments_.resume, drawn, options.samples_per_pixel));
-    }
+    require_no_more(arguments_.resume, checkpoint.state, options);
     *state = std::move(checkpoint.state);
   }
   options.interruptions.from = state;

@@ -75,6 +75,9 @@ void add_basic_options(options::Command& command, RenderArguments& arguments) {
   command.add("--spp", arguments.samples, "Samples per pixel; the scene's without it")
       .whole_number(1, kMaxSamples)
       .type("N");
+  command.add_flag("--adaptive", arguments.options.adaptive,
+                   "After a pilot of 16 samples in every pixel, more where neighbours show noise: "
+                   "--spp on average, for a small relative error of the image");
   command.add("--seconds", arguments.options.seconds, "Stop after this time")
       .positive_number()
       .type("S");
@@ -122,6 +125,15 @@ std::uint32_t replicates_of(const RenderArguments& arguments) {
   return 1;
 }
 
+void require_samples_to_share_out(const renderer::RenderOptions& options) {
+  const std::uint32_t pilot = pilot_samples(options);
+  if (!options.adaptive || options.samples_per_pixel > pilot) return;
+  throw renderer::InputError(
+      fmt::format("--adaptive: {} samples per pixel are the pilot's {}, or fewer: give it a larger "
+                  "--spp",
+                  options.samples_per_pixel, pilot));
+}
+
 }  // namespace
 
 renderer::RenderOptions render_options(const RenderArguments& arguments,
@@ -149,6 +161,7 @@ renderer::RenderOptions render_options(const RenderArguments& arguments,
   options.replicates = replicates_of(arguments);
   set_allocation(arguments.allocation, arguments.samples.has_value(), options);
   check_first_sample(options);
+  require_samples_to_share_out(options);
   return options;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
@@ -32,6 +33,16 @@ std::string packed(Next next, int signal, const RenderState& part) {
 
 constexpr std::size_t kHeader = 2;
 
+std::string packed(const std::vector<renderer::SampleNeed>& needs) {
+  return {reinterpret_cast<const char*>(needs.data()), needs.size() * sizeof(needs[0])};
+}
+
+std::vector<renderer::SampleNeed> needs_of(const mpi::Message& message) {
+  std::vector<renderer::SampleNeed> needs(message.bytes.size() / sizeof(renderer::SampleNeed));
+  std::memcpy(needs.data(), message.bytes.data(), message.bytes.size());
+  return needs;
+}
+
 class RankedRender {
  public:
   RankedRender(mpi::Ranks& ranks, const renderer::Scene& scene,
@@ -48,6 +59,7 @@ class RankedRender {
 
   renderer::RenderResult run() {
     while (const std::uint32_t target = next_target()) {
+      if (options_.adaptive) share_needs();
       missing_ = ranks_.count() - 1;
       render_up_to(target);
       gather();
@@ -93,11 +105,25 @@ class RankedRender {
     if (ranks_.is_first()) whole_.sum_all_replicates();
   }
 
+  /// What pixels need, learnt of the pilots of all, is known to all before they go on.
+  void share_needs() {
+    if (needs_shared_) return;
+    if (ranks_.is_first()) learn_needs(whole_, options_);
+    needs_shared_ = ranks_.first_says(whole_.needs.empty() ? 0 : 1) != 0;
+    if (!needs_shared_) return;
+    if (ranks_.is_first()) {
+      for (int rank = 1; rank < ranks_.count(); ++rank) ranks_.send(rank, packed(whole_.needs));
+    }
+    RenderState own = *own_;
+    own.needs = ranks_.is_first() ? whole_.needs : needs_of(ranks_.receive(0));
+    own_ = std::make_shared<const RenderState>(std::move(own));
+  }
+
   /// Samples per pixel where the first rank looks at limits next; 0 at the end.
   std::uint32_t next_target() const {
     std::uint32_t target = 0;
     if (ranks_.is_first()) {
-      const std::uint32_t done = whole_.least_drawn();
+      const std::uint32_t done = level_of(whole_, options_);
       const bool goes_on = signal_ == 0 && done < options_.samples_per_pixel;
       if (goes_on && !is_good_enough(whole_, options_)) target = next_look(done, options_);
     }
@@ -174,9 +200,9 @@ class RankedRender {
     put(0, taken_out(shard_, *own_));
     keep_whole();
     result.counters = whole_.counters;
-    result.samples_per_pixel = std::min(whole_.least_drawn(), options_.samples_per_pixel);
+    result.samples_per_pixel = renderer::samples_per_pixel(whole_, options_);
     result.seconds = whole_.seconds;
-    result.stopped = result.stopped && result.samples_per_pixel < options_.samples_per_pixel;
+    result.stopped = result.stopped && level_of(whole_, options_) < options_.samples_per_pixel;
     result.film = std::move(whole_.film);
     result.drawn = std::move(whole_.drawn);
     result.bsdf_counts = std::move(whole_.bsdf_counts);
@@ -194,6 +220,7 @@ class RankedRender {
   double seconds_before_ = 0;
   int missing_ = 0;  // ranks that are not done with what was asked for
   int signal_ = 0;   // that stopped a rank
+  bool needs_shared_ = false;
 };
 
 }  // namespace

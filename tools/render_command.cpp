@@ -70,7 +70,8 @@ void print_found(const RenderArguments& arguments, const renderer::SceneDescript
     fmt::print(", depth {}", options.path.max_depth);
   }
   if (options.samples_per_pixel < kMaxSamples) {
-    fmt::print(", up to {} per pixel", counted(options.samples_per_pixel, "sample"));
+    fmt::print(", up to {} per pixel{}", counted(options.samples_per_pixel, "sample"),
+               options.adaptive ? " on average" : "");
   }
   fmt::print("\n");
   std::fflush(stdout);
@@ -89,6 +90,7 @@ reports::RenderRecord make_record(const RenderArguments& arguments, const render
   record.light_selection = name(arguments.light_selection);
   record.accelerator = name(accelerator_of(scene));
   record.samples_per_pixel = result.samples_per_pixel;
+  record.adaptive = options.adaptive;
   record.first_sample = options.first_sample;
   record.end_sample = end_sample(options, result);
   record.seconds = result.seconds;

@@ -45,6 +45,7 @@ void add_sample_range_option(options::Command& command, renderer::RenderOptions&
       .whole_number(0, kMaxSamples - 1)
       .excludes("--seconds")
       .excludes("--error")
+      .excludes("--adaptive")
       .type("K");
 }
 

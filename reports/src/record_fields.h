@@ -266,6 +266,7 @@ void visit_fields(Visitor& visit, Record& r) {
   visit("light_selection", r.light_selection);
   if (visit.wants("accelerator", !r.accelerator.empty())) visit("accelerator", r.accelerator);
   visit("spp", r.samples_per_pixel);
+  if (visit.wants("adaptive", r.adaptive)) visit("adaptive", r.adaptive);
   if (visit.wants("end_sample", r.end_sample > 0)) {
     visit("first_sample", r.first_sample);
     visit("end_sample", r.end_sample);

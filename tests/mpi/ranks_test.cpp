@@ -36,6 +36,13 @@ TEST(Ranks, StopAtTheErrorOfOneProcess) {
   EXPECT_EQ(out.find(" 1 samples per pixel"), std::string::npos) << "is the limit ever looked at?";
 }
 
+TEST(Ranks, ShareOutSamplesAsOneProcess) {
+  const ScratchDirectory scratch;
+  const std::string render = "render sphere_light --size 13x9 --strategy light --adaptive ";
+  expect_same_image(scratch, render + "--sampler sobol --spp 64");
+  expect_same_image(scratch, render + "--error 0.02");
+}
+
 TEST(Ranks, AllocateSamplesAsOneProcess) {
   const ScratchDirectory scratch;
   expect_same_image(scratch, "render sphere_light --size 2x2 --allocation lu --spp 80");
@@ -58,6 +65,23 @@ TEST(Ranks, GoOnFromWhatAnotherNumberOfRanksHasKept) {
   EXPECT_NE(scratch.read("on.json").find("\"camera_rays\":" + std::to_string(13 * 9 * 32)),
             std::string::npos)
       << scratch.read("on.json");
+}
+
+TEST(Ranks, GoOnFromAPilotAndFromWhatCameAfterIt) {
+  const ScratchDirectory scratch;
+  const std::string render = "render sphere_light --size 13x9 --adaptive --threads 1 ";
+  ASSERT_EQ(run_plumbline(scratch.path(), render + "--spp 64 -o whole.exr").exit_code, 0);
+  for (const char* before : {"17", "40"}) {
+    const auto in_three =
+        run_in_ranks(scratch.path(), 3, render + "-o part.exr --checkpoint state --spp " + before);
+    ASSERT_EQ(in_three.exit_code, 0) << in_three.err;
+    const std::string resume = render + "--spp 64 -o on.exr --resume state";
+    ASSERT_EQ(run_plumbline(scratch.path(), resume).exit_code, 0);
+    expect_same_bits(scratch.path(), "whole.exr", "on.exr");
+    const auto in_two = run_in_ranks(scratch.path(), 2, resume);
+    ASSERT_EQ(in_two.exit_code, 0) << in_two.err;
+    expect_same_bits(scratch.path(), "whole.exr", "on.exr");
+  }
 }
 
 TEST(Ranks, SayOnceWhatIsWrongForAll) {

@@ -53,6 +53,7 @@ reports::RenderRecord sample_render() {
   render.strategy = "mis";
   render.heuristic = "power";
   render.samples_per_pixel = 64;
+  render.adaptive = true;
   render.first_sample = 128;
   render.end_sample = 192;
   render.seconds = 1.5;

@@ -137,7 +137,7 @@ TEST(Interruptions, ACheckpointOfAnotherRenderIsRefusedWithWhatIsAnother) {
   const auto refused = [&](const std::string& options, const std::string& why) {
     expect_refused(scratch.path(), render + options, why);
   };
-  refused("--spp 2", "state: holds 4 samples per pixel, more than --spp 2");
+  refused("--spp 2", "state: holds 4 samples of a pixel, more than --spp 2");
   refused("--seed 1", "seed: kept of 0, asked for 1");
   refused("--first-sample 4", "first sample: kept of 0, asked for 4");
   refused("--strategy light", "strategy: kept of mis, asked for light");
@@ -149,6 +149,7 @@ TEST(Interruptions, ACheckpointOfAnotherRenderIsRefusedWithWhatIsAnother) {
   refused("--light-selection power", "light selection: kept of uniform, asked for power");
   refused("--max-depth 1", "maximum depth: kept of 2, asked for 1");
   refused("--roulette 2", "roulette depth: kept of 5, asked for 2");
+  refused("--adaptive --spp 32", "adaptive: kept of none, asked for pilot of 16");
   refused("--error 0.1", "error: kept of 0, asked for 0.1");
   refused("-D radius=0.3", "scene content: kept of ");
   refused("--allocation lu --spp 80", "allocation: kept of none, asked for lu, ");

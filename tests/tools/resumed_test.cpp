@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <plumbline_tests/support.h>
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cstdint>
@@ -98,6 +99,21 @@ TEST_F(Resumed, AtMoreThanAHundredMomentsIsTheSameBitForBit) {
   options_.replicates = 4;
   stops += expect_the_same(scene_);
   EXPECT_GE(stops, 100);
+}
+
+TEST_F(Resumed, AdaptiveIsTheSameBitForBit) {
+  options_.adaptive = true;
+  options_.samples_per_pixel = 50;
+  EXPECT_GE(expect_the_same(shallow_), 8);
+  options_.sampler = renderer::SamplerType::sobol;
+  options_.replicates = 4;
+  EXPECT_GE(expect_the_same(shallow_), 8);
+  const std::vector<std::uint32_t> drawn = render(shallow_, options_).drawn;
+  EXPECT_LT(*std::min_element(drawn.begin(), drawn.end()),
+            *std::max_element(drawn.begin(), drawn.end()));
+  options_.relative_error = 0.01;
+  options_.samples_per_pixel = 1024;
+  EXPECT_GE(expect_the_same(shallow_), 8);
 }
 
 TEST_F(Resumed, StopsAtTheSameErrorAsARenderThatNeverStopped) {

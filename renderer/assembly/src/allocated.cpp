@@ -51,6 +51,9 @@ void check_allocation(const RenderOptions& options) {
   if (options.seconds > 0 || options.relative_error > 0) {
     throw InputError("sample allocation needs a sample count, not a limit on time or error");
   }
+  if (options.adaptive) {
+    throw InputError("sample allocation draws as many samples of every pixel: not adaptive");
+  }
   if (options.first_sample > 0) {
     throw InputError("sample allocation learns from the first sample on: it cannot begin later");
   }

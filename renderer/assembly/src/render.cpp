@@ -65,7 +65,7 @@ std::optional<NonFinite> first_non_finite(const Scene& scene, const RenderOption
   // By a tile, so that denormal numbers are zero as they were then.
   TileThreads(1).run(1, 1, 1, [&](const Tile&) {
     const std::unique_ptr<PixelSampler> sampler = make_sampler();
-    for (std::uint32_t i = 0; i < result.samples_per_pixel && !place.sample; ++i) {
+    for (std::uint32_t i = 0; i < result.drawn[pixel] && !place.sample; ++i) {
       const std::uint32_t s = options.first_sample + i;
       PixelMoments moments;
       sampler->sample(place.x, place.y, pixel * options.replicates + s % options.replicates,

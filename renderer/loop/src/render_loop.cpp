@@ -35,6 +35,13 @@ class ScalarSampler final : public PixelSampler {
   std::uint64_t seed_;
 };
 
+bool has_all(const RenderState& state, const SampleCounts& counts) {
+  for (std::size_t i = 0; i < state.drawn.size(); ++i) {
+    if (state.drawn[i] < counts.of(i)) return false;
+  }
+  return true;
+}
+
 class RenderLoop {
  public:
   RenderLoop(const Camera& camera, const SamplingOptions& options,
@@ -45,22 +52,26 @@ class RenderLoop {
                                           : fresh_state(camera.width(), camera.height(), options)),
         before_{state_.counters, state_.seconds},
         progress_(options.progress, state_.drawn.size() * options.samples_per_pixel),
-        samplers_(make_sampler) {
+        samplers_(make_sampler),
+        counts_(sample_counts(state_, options)),
+        done_(level_of(state_, options)) {
     state_.sum_all_replicates();
   }
 
   LoopResult run() {
-    std::uint32_t done = drawn();
     bool stopped = false;
-    while (!stopped && done < options_.samples_per_pixel && !is_good_enough(state_, options_)) {
-      const std::uint32_t target = next_look_in_time(done);
-      if (target == done) break;
+    while (!stopped && done_ < options_.samples_per_pixel && !is_good_enough(state_, options_)) {
+      const bool is_known = !state_.needs.empty();
+      learn_needs(state_, options_);
+      if (!is_known) counts_ = sample_counts(state_, options_);
+      const std::uint32_t target = next_look_in_time(done_);
+      if (target == done_) break;
       stopped = !render_up_to(target);
-      done = drawn();
     }
-    stopped = stopped && done < options_.samples_per_pixel;
+    stopped = stopped && done_ < options_.samples_per_pixel;
     keep(true);
-    return {std::move(state_.film), state_.counters, done,
+    const std::uint32_t samples = samples_per_pixel(state_, options_);
+    return {std::move(state_.film), state_.counters, samples,
             state_.seconds,         stopped,         std::move(state_.drawn)};
   }
 
@@ -69,9 +80,6 @@ class RenderLoop {
     PathCounters counters;
     double seconds = 0;
   };
-
-  /// Samples of every pixel; without pixels, all.
-  std::uint32_t drawn() const { return std::min(state_.least_drawn(), options_.samples_per_pixel); }
 
   double seconds() const {
     return before_.seconds +
@@ -99,11 +107,13 @@ class RenderLoop {
   /// @return false where it was stopped
   bool render_up_to(std::uint32_t target) {
     const Interruptions& interruptions = options_.interruptions;
-    for (std::uint32_t done = drawn(); done < target; done = drawn()) {
-      const std::uint32_t left = target - done;
+    while (done_ < target) {
+      const std::uint32_t left = target - done_;
       const std::uint32_t samples = interruptions.any() ? std::min(left, samples_of_slice_) : left;
       const Slice slice(interruptions);
-      render_slice(done, samples, slice);
+      counts_.set_level(done_ + samples);
+      render_slice(samples, slice);
+      if (has_all(state_, counts_)) done_ += samples;
       if (slice.seconds() < interruptions.slice / 2) {
         samples_of_slice_ = std::min(2 * samples_of_slice_, 1u << 30);
       } else if (slice.seconds() > 2 * interruptions.slice) {
@@ -115,12 +125,13 @@ class RenderLoop {
     return true;
   }
 
-  void render_slice(std::uint32_t done, std::uint32_t samples, const Slice& slice) {
+  /// @param samples  of a pixel, on average
+  void render_slice(std::uint32_t samples, const Slice& slice) {
     const Film& film = state_.film;
     threads_.run(film.width(), film.height(), tile_side(samples), [&](const Tile& tile) {
       if (slice.is_cut()) return;
       PixelSampler& sampler = *samplers_.local();
-      tile.for_each_pixel([&](int x, int y) { render_pixel(x, y, done + samples, sampler); });
+      tile.for_each_pixel([&](int x, int y) { render_pixel(x, y, sampler); });
       sampler.finish();
       if (!dealt().empty()) {
         tile.for_each_pixel([&](int x, int y) { state_.sum_replicates(state_.film.index(x, y)); });
@@ -139,8 +150,9 @@ class RenderLoop {
   std::vector<PixelMoments>& dealt() { return state_.replicates; }
 
   /// Of a slice that was cut, some pixels have their samples already.
-  void render_pixel(int x, int y, std::uint32_t target, PixelSampler& sampler) {
+  void render_pixel(int x, int y, PixelSampler& sampler) {
     const std::size_t pixel = state_.film.index(x, y);
+    const std::uint32_t target = counts_.of(pixel);
     const std::uint32_t replicates = dealt().empty() ? 1 : options_.replicates;
     for (std::uint32_t& drawn = state_.drawn[pixel]; drawn < target; ++drawn) {
       const std::uint32_t s = options_.first_sample + drawn;
@@ -158,21 +170,65 @@ class RenderLoop {
   std::uint32_t samples_of_slice_ = 1;
   ProgressReport progress_;
   oneapi::tbb::enumerable_thread_specific<std::unique_ptr<PixelSampler>> samplers_;
+  SampleCounts counts_;
+  std::uint32_t done_;  // the level that all pixels have
 };
 
 }  // namespace
 
+std::uint32_t pilot_samples(const SamplingOptions& options) {
+  const std::uint32_t nets = options.sampler == SamplerType::sobol ? options.replicates : 1;
+  return nets * std::bit_ceil((kLeastPilot + nets - 1) / nets);
+}
+
+SampleCounts sample_counts(const RenderState& state, const SamplingOptions& options) {
+  return {state.needs, pilot_samples(options)};
+}
+
+std::uint32_t level_of(const RenderState& state, const SamplingOptions& options) {
+  const std::uint32_t limit = options.samples_per_pixel;
+  if (state.needs.empty()) return std::min(state.least_drawn(), limit);
+  SampleCounts counts = sample_counts(state, options);
+  std::uint32_t low = std::min(pilot_samples(options), limit), high = limit + 1;
+  while (high - low > 1) {
+    const std::uint32_t level = low + (high - low) / 2;
+    counts.set_level(level);
+    (has_all(state, counts) ? low : high) = level;
+  }
+  return low;
+}
+
+std::uint32_t samples_per_pixel(const RenderState& state, const SamplingOptions& options) {
+  if (state.needs.empty()) return level_of(state, options);
+  std::uint64_t sum = 0;
+  for (const std::uint32_t drawn : state.drawn) sum += drawn;
+  const std::uint64_t pixels = state.drawn.size();
+  return static_cast<std::uint32_t>((sum + pixels / 2) / pixels);
+}
+
 std::uint32_t next_look(std::uint32_t done, const SamplingOptions& options) {
-  const std::uint32_t all = options.samples_per_pixel;
-  if (!(options.seconds > 0) && !(options.relative_error > 0)) return all;
-  return std::min(done == 0 ? 1 : std::bit_ceil(done + 1), all);
+  const std::uint32_t all = options.samples_per_pixel, pilot = pilot_samples(options);
+  const std::uint32_t end = options.adaptive && done < pilot ? std::min(pilot, all) : all;
+  if (!(options.seconds > 0) && !(options.relative_error > 0)) return end;
+  return std::min(done == 0 ? 1 : std::bit_ceil(done + 1), end);
 }
 
 bool is_good_enough(const RenderState& state, const SamplingOptions& options) {
-  const std::uint32_t done = state.least_drawn();
-  if (!(options.relative_error > 0) || done < 2 || !std::has_single_bit(done)) return false;
-  return std::all_of(state.drawn.begin(), state.drawn.end(), [&](auto n) { return n == done; }) &&
-         state.film.relative_error() <= options.relative_error;
+  if (!(options.relative_error > 0)) return false;
+  const std::uint32_t level = std::bit_floor(level_of(state, options));
+  if (level < 2) return false;
+  SampleCounts counts = sample_counts(state, options);
+  counts.set_level(level);
+  for (std::size_t i = 0; i < state.drawn.size(); ++i) {
+    if (state.drawn[i] != counts.of(i)) return false;
+  }
+  return state.film.relative_error() <= options.relative_error;
+}
+
+void learn_needs(RenderState& state, const SamplingOptions& options) {
+  if (!options.adaptive || !state.needs.empty()) return;
+  if (level_of(state, options) < pilot_samples(options)) return;
+  state.needs = needs_from_neighbours(state.samples());
 }
 
 std::uint32_t RenderState::least_drawn() const {
@@ -192,6 +248,15 @@ void RenderState::sum_replicates(std::size_t pixel) {
 
 void RenderState::sum_all_replicates() {
   for (std::size_t i = 0; i < drawn.size() && !replicates.empty(); ++i) sum_replicates(i);
+}
+
+Film RenderState::samples() const {
+  if (replicates.empty()) return film;
+  Film all(film.width(), film.height());
+  for (std::size_t i = 0; i < replicates.size(); ++i) {
+    all.pixels()[i / (replicates.size() / drawn.size())].merge(replicates[i]);
+  }
+  return all;
 }
 
 RenderState fresh_state(int width, int height, const SamplingOptions& options) {

@@ -44,6 +44,7 @@ inline constexpr HeaderName kHeaderNames[] = {{"scene_content", "scene content",
                                               {"counts", "counts", false},
                                               {"light_probability", "light probability", false},
                                               {"allocation", "allocation", false},
+                                              {"adaptive", "adaptive", false},
                                               {"version", "version", true}};
 
 /// Digits alone.

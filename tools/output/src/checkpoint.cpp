@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using renderer::PixelMoments;
 using renderer::RenderState;
 
-constexpr std::string_view kFormat = "plumbline.checkpoint/1";
+constexpr std::string_view kFormat = "plumbline.checkpoint/2";
 
 // All that goes on from there is kept, in the order of memory, and read by the same kind of
 // machine.
@@ -148,7 +148,7 @@ class Reader {
 /// How many there are of each, before them.
 struct Counts {
   std::uint32_t width = 0, height = 0;
-  std::uint64_t replicates = 0, bsdf_counts = 0;
+  std::uint64_t replicates = 0, bsdf_counts = 0, needs = 0;
 };
 
 CheckpointSettings read_settings(Reader& in) {
@@ -181,13 +181,14 @@ void put_settings(Writer& out, const CheckpointSettings& settings) {
 void put_state(Writer& out, const RenderState& state) {
   const Counts counts{static_cast<std::uint32_t>(state.film.width()),
                       static_cast<std::uint32_t>(state.film.height()), state.replicates.size(),
-                      state.bsdf_counts.size()};
+                      state.bsdf_counts.size(), state.needs.size()};
   out.put(bytes_of(counts));
   out.put(bytes_of(std::span<const std::uint32_t>(state.drawn)));
   // Under Sobol the film is what the replicates make of it.
   out.put(bytes_of(std::span<const PixelMoments>(state.replicates.empty() ? state.film.pixels()
                                                                           : state.replicates)));
   out.put(bytes_of(std::span<const std::uint32_t>(state.bsdf_counts)));
+  out.put(bytes_of(std::span<const renderer::SampleNeed>(state.needs)));
   out.put(bytes_of(state.counters));
   out.put(bytes_of(state.seconds));
 }
@@ -201,6 +202,7 @@ RenderState read_state(Reader& in, const Counts& counts) {
   if (counts.replicates == 0) state.film.pixels().swap(state.replicates);
   if (counts.replicates == 0) state.replicates.clear();
   state.bsdf_counts = in.values<std::uint32_t>(counts.bsdf_counts);
+  state.needs = in.values<renderer::SampleNeed>(counts.needs);
   state.counters = in.value<renderer::PathCounters>();
   state.seconds = in.value<double>();
   return state;

@@ -19,6 +19,7 @@ struct RenderRecord {
   std::string light_selection;   ///< "uniform", "area", "power"
   std::string accelerator;       ///< "embree", "brute_force"; empty in records of before
   std::uint64_t samples_per_pixel = 0;
+  bool adaptive = false;           ///< so many on average
   std::uint64_t first_sample = 0;  ///< number of the first one of a pixel
   std::uint64_t end_sample = 0;    ///< one past the last: of a pixel that has most; 0: not told
   double seconds = 0;              ///< wall clock, rendering only

@@ -9,7 +9,7 @@
 
 #include <plumbline/renderer/loop/render_state.h>
 
-/// Renders that were kept half done, to go on from. Format "plumbline.checkpoint/1": lines
+/// Renders that were kept half done, to go on from. Format "plumbline.checkpoint/2": lines
 /// "name=value" up to an empty one, then the moments of each replicate of each pixel as they are in
 /// memory, in double, and a hash of all that.
 namespace plumbline::output {

@@ -17,6 +17,9 @@ namespace plumbline::renderer {
 /// first.
 struct SamplingOptions {
   std::uint32_t samples_per_pixel = 16;  ///< upper limit, ≥ 1
+  /// After a pilot in every pixel the others go where the error is: so many per pixel on average,
+  /// as SampleCounts says.
+  bool adaptive = false;
   std::uint32_t first_sample = 0;  ///< its number; Sobol: a multiple of what is drawn, no cut net
   double seconds = 0;              ///< time limit [s]; 0: none
   double relative_error = 0;       ///< stop at this Film::relative_error(); 0: none
@@ -36,14 +39,31 @@ struct SamplingOptions {
 /// The state of a render that has not begun.
 RenderState fresh_state(int width, int height, const SamplingOptions& options);
 
-/// Samples per pixel at which the limits of samples and error are looked at next: the next power of
-/// two, or all where no error is.
-/// @param done  samples of every pixel, fewer than all
+/// Adaptive: samples of every pixel before needs are known. A power of two in each replicate.
+std::uint32_t pilot_samples(const SamplingOptions& options);
+
+/// The counts at which a state's samples are aimed.
+SampleCounts sample_counts(const RenderState& state, const SamplingOptions& options);
+
+/// The highest level, up to the limit, whose samples all pixels have; see SampleCounts. Pixels that
+/// have more count as little as pixels that another process renders.
+std::uint32_t level_of(const RenderState& state, const SamplingOptions& options);
+
+/// Samples that were drawn of every pixel; on average, where their numbers differ.
+/// @param state  of all pixels
+std::uint32_t samples_per_pixel(const RenderState& state, const SamplingOptions& options);
+
+/// Level at which the limits of samples and error are looked at next: the next power of two, or all
+/// where no error is; and the end of a pilot.
+/// @param done  level that is reached, below the limit
 std::uint32_t next_look(std::uint32_t done, const SamplingOptions& options);
 
-/// Whether the error limit ends a render here. It is looked at after 2, 4, 8, … samples of every
-/// pixel, however they came about; where a pixel has more, that look is passed, and ended nothing.
+/// Whether the error limit ends a render here. It is looked at at the levels 2, 4, 8, …, however
+/// they came about; where a pixel has more, that look is passed, and ended nothing.
 bool is_good_enough(const RenderState& state, const SamplingOptions& options);
+
+/// Sets the needs from the pilot of all pixels where that is over, and they are not known.
+void learn_needs(RenderState& state, const SamplingOptions& options);
 
 /// Draws samples of pixels; each thread has one of its own.
 class PixelSampler {
@@ -71,7 +91,7 @@ std::unique_ptr<PixelSampler> make_scalar_sampler(const Scene& scene, const Path
 struct LoopResult {
   Film film;
   PathCounters counters;
-  std::uint32_t samples_per_pixel = 0;  ///< drawn, of every pixel
+  std::uint32_t samples_per_pixel = 0;  ///< as the function of this name says
   double seconds = 0;
   bool stopped = false;  ///< before the limits were reached: pixels may have more samples
   std::vector<std::uint32_t> drawn;  ///< RenderState's

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include <plumbline/renderer/adaptive/sample_counts.h>
 #include <plumbline/renderer/core/render/film.h>
 #include <plumbline/renderer/core/render/path.h>
 
@@ -18,6 +19,7 @@ struct RenderState {
   std::vector<PixelMoments> replicates;    ///< under Sobol: those of each pixel, side by side
   std::vector<std::uint32_t> drawn;        ///< samples of each pixel, whichever they became
   std::vector<std::uint32_t> bsdf_counts;  ///< with an allocation: RenderResult's
+  std::vector<SampleNeed> needs;           ///< adaptive, once the pilot is over: of each pixel
   PathCounters counters;
   double seconds = 0;  ///< in all
 
@@ -27,6 +29,10 @@ struct RenderState {
   /// Makes a pixel of the film, or all, what the replicates come to; all: nothing without them.
   void sum_replicates(std::size_t pixel);
   void sum_all_replicates();
+
+  /// Moments of each pixel's samples, whichever replicate they are in: not of what they say of the
+  /// error, which is the film's.
+  Film samples() const;
 };
 
 /// How a render is stopped, kept, and gone on with. All may be empty. What is asked for is looked
