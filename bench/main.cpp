@@ -39,10 +39,12 @@ struct Part {
   bool only_full = false;  ///< not of the one-minute set
 };
 
-std::vector<Part> make_parts(const std::filesystem::path& results) {
+std::vector<Part> make_parts(const std::filesystem::path& results,
+                             const std::vector<std::string>& peers) {
   using namespace plumbline::bench;
   using plumbline::reports::ResultLog;
-  return {{"equal-error", "bars_equal_error", measure_equal_error},
+  return {{"equal-error", "bars_equal_error",
+           [peers](ResultLog& log, bool full) { measure_equal_error(log, peers, full); }},
           {"ray-replay", "bars_ray_replay", measure_ray_replay},
           {"shadow-rays", "shadow_rays", measure_shadow_rays},
           {"accelerators", "accelerators", measure_accelerators},
@@ -63,10 +65,18 @@ int main(int argc, char** argv) try {
   plumbline::options::CommandLine line("Benchmarks of Plumbline, part by part");
   plumbline::options::Command program = line.program();
   std::string folder, only, scaling_point;
+  std::vector<std::string> peers;
   bool full = false;
   program.add("--results", folder, "Folder for the JSON results");
   program.add_flag("--full", full, "Everything, instead of the one-minute set");
   program.add("--only", only, "One part: its name");
+  program
+      .add("--peer", peers,
+           "Beside us in equal-error: another renderer's command, with {scene} (.pbrt) or {xml}, "
+           "{out}, "
+           "{spp}, {seed}, {threads} in it; repeatable")
+      .one_value_each()
+      .type("COMMAND");
   // How this program measures in a process of its own, see scaling_point.cpp.
   program.add("--scaling-point", scaling_point, "").excludes("--results").hidden();
   if (const auto printed = line.parse(argc, argv)) return *printed ? 0 : 2;
@@ -79,7 +89,7 @@ int main(int argc, char** argv) try {
   const std::filesystem::path results = folder;
   std::filesystem::create_directories(results);
   bool found = false;
-  for (const Part& part : make_parts(results)) {
+  for (const Part& part : make_parts(results, peers)) {
     if (only.empty() ? part.only_full && !full : only != part.name) continue;
     found = true;
     auto log = fresh_log(results, part.log);

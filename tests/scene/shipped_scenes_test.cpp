@@ -71,6 +71,27 @@ TEST(ShippedScenes, AreThereForPbrtWhereItHasTheMaterials) {
   EXPECT_GE(translated, 21);
 }
 
+TEST(ShippedScenes, ForPbrtScaleNoLightOfARoundShape) {
+  // pbrt takes the area of a disk or sphere before it is scaled, and with it the light's density.
+  int blocks = 0;
+  for (const char* folder : {"analytic/scenes", "bench/scenes"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(source_file(folder))) {
+      if (entry.path().extension() != ".pbrt") continue;
+      const std::string text = text_of(entry.path());
+      for (std::size_t at = text.find("AttributeBegin"); at != std::string::npos;
+           at = text.find("AttributeBegin", at + 1)) {
+        const std::string block = text.substr(at, text.find("AttributeEnd", at) - at);
+        const auto has = [&](const char* word) { return block.find(word) != std::string::npos; };
+        ++blocks;
+        EXPECT_FALSE(has("AreaLightSource") && has("Scale ") && !has("trianglemesh"))
+            << entry.path() << "\n"
+            << block;
+      }
+    }
+  }
+  EXPECT_GT(blocks, 1000);
+}
+
 constexpr int kSkyWidth = 64, kSkyHeight = 32;
 
 /// Radiance of the skies of bench/scenes/outdoor.xml at the centre of a pixel, rows from the
