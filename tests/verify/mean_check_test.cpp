@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include <plumbline/verify/mean.h>
 
@@ -72,7 +73,14 @@ TEST(MeanCheck, FailsAProvenBiasBelowTheTolerance) {
   MeanOptions o = options("mean/bias below the tolerance", 1.0005, 0.1);
   o.expected = Verdict::fail;
   // The noise is so small that the bias is proven before the first look is over.
-  expect_verdict(run(o, [](Random& r) { return 1 + 1e-3 * (r.uniform() - 0.5); }));
+  const auto near_one = [](Random& r) { return 1 + 1e-3 * (r.uniform() - 0.5); };
+  const CheckResult proven = run(o, near_one);
+  expect_verdict(proven);
+  // Who reads "tolerance 0.1" beside it is told why it fails all the same.
+  EXPECT_NE(proven.reason.find("fails within the tolerance of 0.10005 too"), std::string::npos)
+      << proven.reason;
+  o.tolerance = 1e-4;
+  EXPECT_EQ(run(o, near_one).reason.find("within the tolerance"), std::string::npos);
 }
 
 TEST(MeanCheck, AllowsWhatFloatRoundingDoes) {

@@ -162,6 +162,13 @@ double hoeffding(double range, std::uint64_t n, double level) {
   return range * std::sqrt(std::log(1 / level) / (2 * static_cast<double>(n)));
 }
 
+/// What a failure says where nothing but its proof speaks against the code.
+std::string though_small(const MeanQuestion& q, double bound) {
+  if (!(bound <= q.tolerance)) return "";
+  return ": a difference that is proven, and fails within the tolerance of " + number(q.tolerance) +
+         " too, which is what a pass has to prove and not what is let go";
+}
+
 void judge_nearly_constant(const MeanQuestion& q, const Evidence& e, CheckResult& r) {
   r.leaned_on = "nearly equal samples";
   const double range = std::isfinite(e.largest - e.smallest) ? e.largest - e.smallest : 0.0;
@@ -190,8 +197,8 @@ void judge_nearly_constant(const MeanQuestion& q, const Evidence& e, CheckResult
     r.reason = most_is_missing(q, e);
   } else if (excess > doubt(e.samples, q.fail_level, q.fail_level)) {
     r.verdict = Verdict::fail;
-    r.reason =
-        "all samples are close to " + number(e.estimate) + ", the answer is " + number(q.reference);
+    r.reason = "all samples are close to " + number(e.estimate) + ", the answer is " +
+               number(q.reference) + though_small(q, bound);
   } else if (excess <= hoeffding(range, e.samples, q.pass_level) && bound <= q.tolerance) {
     r.verdict = Verdict::pass;
   } else {
@@ -227,7 +234,7 @@ void judge_difference(const MeanQuestion& q, const Evidence& e, const std::strin
     r.verdict = Verdict::fail;
     r.reason = "estimate " + number(e.estimate) + " is " +
                number(std::abs(e.estimate - q.reference) / e.standard_error) +
-               " standard errors from the answer " + number(q.reference);
+               " standard errors from the answer " + number(q.reference) + though_small(q, bound);
   } else if (!(bound <= q.tolerance)) {
     r.reason = "neither a difference nor |bias| <= " + number(q.tolerance) + " is proven after " +
                number(e.samples) + " samples";
