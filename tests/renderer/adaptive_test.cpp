@@ -220,7 +220,6 @@ TEST(Adaptive, SamplesGoWhereTheNoiseIs) {
     options.sampler = sampler;
     options.replicates = 4;
     const LoopResult result = render_rare_light(options, kFirstNoisy);
-    EXPECT_EQ(result.samples_per_pixel, 64u);
     std::uint64_t all = 0;
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
@@ -236,6 +235,7 @@ TEST(Adaptive, SamplesGoWhereTheNoiseIs) {
         EXPECT_EQ(count, sampler == SamplerType::sobol ? 4u : drawn);
       }
     }
+    EXPECT_EQ(result.samples_per_pixel, (all + kSide * kSide / 2) / (kSide * kSide));
     EXPECT_LE(all, 64u * kSide * kSide);
     EXPECT_GE(all, 40u * kSide * kSide);
   }

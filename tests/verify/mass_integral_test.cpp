@@ -281,6 +281,20 @@ TEST(RejectedShare, IsKnownForBandsCornersAndNothing) {
   expect("corner", 0.02, 3e-5, [](double a, double b) { return a + b > 1.8; });
 }
 
+TEST(RejectedShare, OfPartsIsKnownAsWellAsEachOfThem) {
+  const RejectedShare nothing{0, 0, 0, 1e5, 1e-5}, known{0.3, 1e-12, 1e-9, 1e6, 0};
+  RejectedShare sum = nothing.scaled(0.75);
+  EXPECT_NEAR(sum.error(1e-3), 0.75 * std::log(1e3) / 1e5, 1e-12);
+  sum.add(known.scaled(0.25));
+  EXPECT_DOUBLE_EQ(sum.value, 0.075);
+  // Each at half of the level.
+  EXPECT_NEAR(sum.error(1e-3), 0.75 * std::log(2e3) / 1e5 + known.scaled(0.25).error(5e-4), 1e-12);
+  // Of two that show nothing the less well known one bounds both.
+  sum = nothing.scaled(0.5);
+  sum.add({0, 0, 0, 1e4, 1e-4 * 0.5});
+  EXPECT_NEAR(sum.error(1e-3), 0.5 * std::log(1e3) / 1e4, 1e-12);
+}
+
 TEST(RejectedShare, OfThreeNumbersAndOfAGeneratorReachesThePromise) {
   SamplingPair three = rejecting([](double, double) { return false; });
   three.numbers = 3;

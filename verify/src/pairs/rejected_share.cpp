@@ -48,6 +48,12 @@ struct Precision {
   }
 };
 
+/// A share as so many points show it.
+RejectedShare shown(double value, double variance, double largest_term, double points) {
+  if (value == 0) return {0, 0, 0, points, 1 / points};
+  return {value, variance, largest_term, points, 0};
+}
+
 /// Whether the sampler rejects random numbers, of each whether.
 std::vector<char> rejected_of(const Sampler& sample, const std::vector<Uniforms>& u) {
   std::vector<char> rejected(u.size());
@@ -140,7 +146,8 @@ class RejectedLines {
       strips.push_back({{{i / double(count), 0}, {(i + 1) / double(count), 1}}, 0});
     }
     const MassIntegral area = integrate_mass(question, strips);
-    return {std::clamp(area.total, 0.0, 1.0), area.variance_of_total, area.largest_term, points_};
+    return shown(std::clamp(area.total, 0.0, 1.0), area.variance_of_total, area.largest_term,
+                 points_);
   }
 
  private:
@@ -222,16 +229,13 @@ class RejectedLines {
 template <class Rejected>
 RejectedShare count(const Rejected& rejected_among, std::uint64_t at_most,
                     const Precision& precision) {
-  RejectedShare share;
   double rejected = 0;
   std::uint64_t before = 0;
   for (std::uint64_t n = precision.probes();; n = std::min(2 * n, at_most)) {
     rejected += static_cast<double>(rejected_among(n - before));
     before = n;
-    share.points = static_cast<double>(n);
-    share.value = rejected / share.points;
-    share.variance = share.value * (1 - share.value) / share.points;
-    share.largest_term = 1 / share.points;
+    const double points = static_cast<double>(n), value = rejected / points;
+    const RejectedShare share = shown(value, value * (1 - value) / points, 1 / points, points);
     if (share.error(kShareLevel) <= precision.counted || n >= at_most) return share;
   }
 }
@@ -279,7 +283,7 @@ RejectedShare on_grid(const Sampler& sample, int numbers, int per_side, double e
   }
   add_up();
   const double cells = static_cast<double>(per_side) * per_side * layers;
-  return {sum / cells, squares / (cells * cells), 0.5 / cells, 2 * cells};
+  return shown(sum / cells, squares / (cells * cells), 0.5 / cells, 2 * cells);
 }
 
 RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon,
@@ -327,12 +331,24 @@ RejectedShare of_numbers(const Sampler& sample, int numbers, double epsilon,
 
 double RejectedShare::error(double level) const {
   if (points == 0) return 0;
-  if (value == 0) return -std::log(level) / points;
-  return bernstein(variance, largest_term, level);
+  if (value == 0) return -std::log(level) * unseen_term;
+  if (unseen_term == 0) return bernstein(variance, largest_term, level);
+  return bernstein(variance, largest_term, level / 2) - std::log(level / 2) * unseen_term;
 }
 
 RejectedShare RejectedShare::scaled(double factor) const {
-  return {factor * value, factor * factor * variance, factor * largest_term, points / factor};
+  return {factor * value, factor * factor * variance, factor * largest_term, points / factor,
+          factor * unseen_term};
+}
+
+void RejectedShare::add(const RejectedShare& part) {
+  value += part.value;
+  variance += part.variance;
+  largest_term = std::max(largest_term, part.largest_term);
+  points = points == 0 ? part.points : std::min(points, part.points);
+  // Shares s_k of parts with probabilities p_k show nothing in n_k points each with a chance of at
+  // most exp(−Σ n_k s_k), so that Σ p_k s_k ≤ −ln(level)·max p_k/n_k.
+  unseen_term = std::max(unseen_term, part.unseen_term);
 }
 
 RejectedShare measure_rejected(const SamplingPair& pair, const ContractOptions& options,
@@ -352,10 +368,7 @@ RejectedShare measure_rejected(const SamplingPair& pair, const ContractOptions& 
           (lobe.sample ? of_numbers(lobe.sample, 2, pair.epsilon, of_lobe, lobe_seed)
                        : count_drawn(lobe.draw, random, of_lobe))
               .scaled(lobe.probability);
-      sum.value += share.value;
-      sum.variance += share.variance;
-      sum.largest_term = std::max(sum.largest_term, share.largest_term);
-      sum.points = sum.points == 0 ? share.points : std::min(sum.points, share.points);
+      sum.add(share);
     }
     return sum;
   }

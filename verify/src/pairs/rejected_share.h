@@ -12,12 +12,17 @@ struct RejectedShare {
   double variance = 0;      ///< of `value`
   double largest_term = 0;  ///< that one random point added to it
   double points = 0;        ///< random points that it rests on
+  /// What one rejected point of a part that has shown none would have added.
+  double unseen_term = 0;
 
-  /// |value − truth| ≤ this with probability 1 − level. What none of the points has shown has a
-  /// share of at most −ln(level)/points.
+  /// |value − truth| ≤ this with probability 1 − level. A part of which n points have shown nothing
+  /// has a share of at most −ln(level)/n of its own.
   double error(double level) const;
 
   RejectedShare scaled(double factor) const;
+
+  /// Adds the share of another part, measured independently.
+  void add(const RejectedShare& part);
 };
 
 /// Measures the share until it is known well enough for the promise of the integral check, or a few
