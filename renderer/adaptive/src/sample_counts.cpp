@@ -1,7 +1,6 @@
 #include <plumbline/renderer/adaptive/sample_counts.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -12,7 +11,6 @@ namespace {
 
 constexpr int kPerOctave = 1024;
 constexpr std::uint32_t kMostSamples = 1u << 30;
-constexpr int kRadius = 2;
 
 /// Standard deviation of a sample's luminance, where the channels of a path go together.
 double deviation(const PixelMoments& pixel) {
@@ -20,10 +18,23 @@ double deviation(const PixelMoments& pixel) {
   return luminance(Rgbd{std::sqrt(v.r), std::sqrt(v.g), std::sqrt(v.b)});
 }
 
-/// exp(−d²/(2·0.8²)) at d pixels.
-double weight_at(int dx, int dy) {
+/// A pixel beside another.
+struct Neighbour {
+  int dx, dy;
+  double weight;  ///< exp(−d²/(2·0.8²)) at d pixels
+};
+
+std::vector<Neighbour> neighbours() {
+  constexpr int kRadius = 2;
   constexpr double kWidth = 0.8;
-  return std::exp(-(dx * dx + dy * dy) / (2 * kWidth * kWidth));
+  std::vector<Neighbour> all;
+  for (int dy = -kRadius; dy <= kRadius; ++dy) {
+    for (int dx = -kRadius; dx <= kRadius; ++dx) {
+      if (dx == 0 && dy == 0) continue;
+      all.push_back({dx, dy, std::exp(-(dx * dx + dy * dy) / (2 * kWidth * kWidth))});
+    }
+  }
+  return all;
 }
 
 /// What the pixels around one have, weighted.
@@ -58,14 +69,7 @@ SampleNeed need_of(double relative_variance) {
 }  // namespace
 
 std::vector<SampleNeed> needs_from_neighbours(const Film& pilot) {
-  constexpr std::size_t kSide = 2 * kRadius + 1;
-  std::array<std::array<double, kSide>, kSide> weights;
-  for (int dy = -kRadius; dy <= kRadius; ++dy) {
-    for (int dx = -kRadius; dx <= kRadius; ++dx) {
-      weights[static_cast<std::size_t>(dy + kRadius)][static_cast<std::size_t>(dx + kRadius)] =
-          weight_at(dx, dy);
-    }
-  }
+  const std::vector<Neighbour> beside = neighbours();
   std::vector<double> deviations, means;
   for (const PixelMoments& pixel : pilot.pixels()) {
     deviations.push_back(deviation(pixel));
@@ -76,14 +80,11 @@ std::vector<SampleNeed> needs_from_neighbours(const Film& pilot) {
   for (int y = 0; y < pilot.height(); ++y) {
     for (int x = 0; x < pilot.width(); ++x) {
       Neighbourhood around;
-      for (int v = std::max(y - kRadius, 0); v <= std::min(y + kRadius, pilot.height() - 1); ++v) {
-        for (int u = std::max(x - kRadius, 0); u <= std::min(x + kRadius, pilot.width() - 1); ++u) {
-          if (u == x && v == y) continue;
-          const std::size_t i = pilot.index(u, v);
-          around.add(weights[static_cast<std::size_t>(v - y + kRadius)]
-                            [static_cast<std::size_t>(u - x + kRadius)],
-                     deviations[i], means[i]);
-        }
+      for (const Neighbour& n : beside) {
+        const int u = x + n.dx, v = y + n.dy;
+        if (u < 0 || u >= pilot.width() || v < 0 || v >= pilot.height()) continue;
+        const std::size_t i = pilot.index(u, v);
+        around.add(n.weight, deviations[i], means[i]);
       }
       needs.push_back(need_of(around.relative_variance()));
     }
