@@ -166,6 +166,35 @@ TEST(MeanCheck, ProvesDarknessWithAnAbsoluteTolerance) {
   expect_verdict(run(o, [](Random&) { return 0.0; }));
 }
 
+TEST(MeanCheck, PassesEqualSamplesOfWhichOneInMillionsIsRejected) {
+  // The third sample is, and no other for a while: skewness of one in n falls as its root.
+  const auto rejects_one = [](const MeanOptions& o) {
+    return check_mean(o, [](std::uint64_t first, std::uint64_t count) {
+      Moments moments;
+      for (std::uint64_t i = first; i < first + count; ++i) moments.add(i == 2 ? 0.0 : 0.5);
+      return moments;
+    });
+  };
+  MeanOptions o = options("mean/one rejected", 0.5);
+  const CheckResult r = rejects_one(o);
+  expect_verdict(r);
+  EXPECT_LT(r.samples, 20'000u);
+  EXPECT_EQ(r.leaned_on, "samples that deviate no more than rejected ones");
+  // What is off by more than the samples are large is no rejection, and left to the skewness guard.
+  MeanOptions bright = options("mean/one bright", 0.5);
+  bright.max_samples = 1 << 20;
+  bright.expected = Verdict::inconclusive;
+  expect_verdict(check_mean(bright, [](std::uint64_t first, std::uint64_t count) {
+    Moments moments;
+    for (std::uint64_t i = first; i < first + count; ++i) moments.add(i == 2 ? 1.25 : 0.5);
+    return moments;
+  }));
+  // Rejected ones that are a bias are still none that passes.
+  MeanOptions biased = options("control/two in a hundred rejected", 0.5);
+  biased.expected = Verdict::fail;
+  expect_verdict(run(biased, [](Random& random) { return random.uniform() < 0.02 ? 0.0 : 0.5; }));
+}
+
 TEST(MeanCheck, DoesNotPassWhatItCannotProve) {
   MeanOptions o = options("mean/too few samples", 1, 0.001);
   o.max_samples = 100'000;

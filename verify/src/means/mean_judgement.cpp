@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "bernstein.h"
 #include "distributions.h"
 #include "text.h"
 
@@ -207,6 +208,30 @@ void judge_nearly_constant(const MeanQuestion& q, const Evidence& e, CheckResult
   }
 }
 
+/// Equal samples but for a few that are off by no more than themselves, as where one in millions is
+/// rejected: for long no look of theirs is free of skewness, but what deviates is bounded. One in a
+/// hundred rejected makes the estimate smaller by 1 %, and the range that much larger beside it.
+bool deviates_like_rejections(const Evidence& e) {
+  return e.samples >= kMinimumSamples && e.largest - e.smallest <= 1.01 * std::abs(e.estimate);
+}
+
+/// A pass alone: that more is not to be seen is no proof of a difference.
+void judge_rare_deviations(const MeanQuestion& q, const Evidence& e, CheckResult& r) {
+  const double range = e.largest - e.smallest;
+  const double squares = e.standard_error * e.standard_error;
+  const double half_width =
+      bernstein(squares, range / static_cast<double>(e.samples), q.pass_level);
+  const double distance = std::abs(e.estimate - q.reference);
+  const double bound = distance + half_width +
+                       hidden_bias(e.estimate, e.samples, std::max(q.pass_level, q.unseen_level));
+  if (!(distance - q.rounding_allowance <= half_width && bound <= q.tolerance)) return;
+  r.verdict = Verdict::pass;
+  r.reason.clear();
+  r.leaned_on = "samples that deviate no more than rejected ones";
+  r.bound = bound;
+  r.interval = {e.estimate - half_width, e.estimate + half_width};
+}
+
 /// Smallest |bias| that ends in a fail with 99 % probability: it must be too large to pass (at the
 /// tolerance a pass has a chance of 0.1 %) and seen at the cap at the latest (with 99.1 %).
 double detectable_bias(const MeanQuestion& q, const Evidence& e) {
@@ -325,6 +350,9 @@ CheckResult judge_mean(const MeanQuestion& q, const Evidence& seen) {
   if (q.exact_variance && std::isinf(*q.exact_variance))
     doubt = "the variance is known to be infinite";
   judge_difference(q, e, doubt, r);
+  if (!doubt.empty() && !q.exact_variance && deviates_like_rejections(seen)) {
+    judge_rare_deviations(q, seen, r);
+  }
   return r;
 }
 
