@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace plumbline::verify {
 
@@ -16,12 +17,41 @@ constexpr double kGroupRoundings = 32;
 constexpr double kNear = 64;
 constexpr std::size_t kFewest = 8;
 
+/// Values that are in a group, and all that are near them, with others: to be sorted in place of
+/// all. A group falls into two neighbouring buckets.
+std::vector<double> crowded(const std::vector<double>& values, double width, double near) {
+  constexpr std::size_t kBuckets = 1 << 17;
+  if (width * kBuckets > 1) return values;
+  const auto bucket_of = [](double value) {
+    return static_cast<std::size_t>(std::clamp(value, 0.0, 1.0) * (kBuckets - 1));
+  };
+  std::vector<std::uint32_t> counts(kBuckets + 1);
+  for (const double value : values) ++counts[bucket_of(value)];
+  // Of how many groups a bucket is near, by where that begins and ends.
+  std::vector<std::int32_t> changes(kBuckets + 1);
+  const auto reach = static_cast<std::size_t>(near * kBuckets) + 2;
+  for (std::size_t b = 0; b < kBuckets; ++b) {
+    if (counts[b] + counts[b + 1] < kFewest) continue;
+    ++changes[b - std::min(b, reach)];
+    --changes[std::min(b + reach + 1, kBuckets)];
+  }
+  std::vector<bool> is_near(kBuckets);
+  std::int32_t groups = 0;
+  for (std::size_t b = 0; b < kBuckets; ++b) is_near[b] = (groups += changes[b]) > 0;
+  std::vector<double> kept;
+  for (const double value : values) {
+    if (is_near[bucket_of(value)]) kept.push_back(value);
+  }
+  return kept;
+}
+
 }  // namespace
 
-SharedValues shared_values(std::vector<double> values, double resolution) {
+SharedValues shared_values(const std::vector<double>& all, double resolution) {
   SharedValues result;
-  std::sort(values.begin(), values.end());
   const double width = kGroupRoundings * resolution, near = kNear * width;
+  std::vector<double> values = crowded(all, width, near);
+  std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   std::size_t largest = 0;
   for (std::size_t first = 0, last = 0; first < n; first = std::max(last, first + 1)) {
@@ -35,7 +65,7 @@ SharedValues shared_values(std::vector<double> values, double resolution) {
     const auto end = std::upper_bound(values.begin(), values.end(), values[last - 1] + near);
     const auto around = static_cast<std::size_t>(end - begin) - group;
     if (around > group) continue;
-    result.share += static_cast<double>(group) / static_cast<double>(n);
+    result.share += static_cast<double>(group) / static_cast<double>(all.size());
     ++result.count;
     if (group > largest) {
       largest = group;

@@ -18,7 +18,7 @@ struct SharedValues {
 
 /// @param values      of one coordinate, each in [0, 1]
 /// @param resolution  rounding unit of the samples
-SharedValues shared_values(std::vector<double> values, double resolution);
+SharedValues shared_values(const std::vector<double>& values, double resolution);
 
 /// Share of points that have a coordinate in common with many others: the largest of all
 /// coordinates.
@@ -29,7 +29,7 @@ double share_on_lines(const std::vector<Point>& points, std::size_t dimension, d
     std::vector<double> values;
     values.reserve(points.size());
     for (const Point& p : points) values.push_back(p[d]);
-    share = std::max(share, shared_values(std::move(values), resolution).share);
+    share = std::max(share, shared_values(values, resolution).share);
   }
   return share;
 }
