@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace plumbline::renderer {
 namespace {
@@ -11,6 +13,25 @@ namespace {
 Rgbf sample_at(int i) {
   const auto x = static_cast<float>(i);
   return {1 + 0.1f * std::sin(x), 2 + 0.2f * std::cos(3 * x), x};
+}
+
+TEST(Film, SamplesTogetherGiveTheBitsOfOneByOne) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  std::vector<Rgbf> samples;
+  for (int i = 0; i < 100; ++i) samples.push_back(sample_at(i));
+  samples[7].g = kInfinity;
+  samples[8] = {0, 0, std::nanf("")};
+  PixelMoments one_by_one, together;
+  for (const Rgbf& sample : samples) one_by_one.add(sample);
+  together.add(std::span(samples).first(0));
+  together.add(std::span(samples).first(9));
+  together.add(std::span(samples).subspan(9));
+  EXPECT_EQ(together.count, 98u);
+  EXPECT_EQ(together.non_finite, 2u);
+  EXPECT_EQ(together.count, one_by_one.count);
+  EXPECT_EQ(together.non_finite, one_by_one.non_finite);
+  EXPECT_EQ(together.mean, one_by_one.mean);
+  EXPECT_EQ(together.sum_squares, one_by_one.sum_squares);
 }
 
 TEST(Film, MergedMomentsEqualThoseOfOneStream) {

@@ -11,26 +11,35 @@ bool is_finite(const Rgbf& c) {
 
 Rgbd minus(const Rgbd& a, const Rgbd& b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
 
-}  // namespace
+void add_finite(const Rgbd& x, PixelMoments& to) {
+  ++to.count;
+  const Rgbd before = minus(x, to.mean);
+  to.mean += before * (1.0 / to.count);
+  to.sum_squares += before * minus(x, to.mean);
+}
 
-void PixelMoments::add(const Rgbf& sample) {
+void add_sample(const Rgbf& sample, PixelMoments& to) {
   if (!is_finite(sample)) {
-    ++non_finite;
+    ++to.non_finite;
     return;
   }
-  add_finite(rgb_cast<double>(sample));
+  add_finite(rgb_cast<double>(sample), to);
+}
+
+}  // namespace
+
+void PixelMoments::add(const Rgbf& sample) { add({&sample, 1}); }
+
+// Of a copy: each sample waits for the one before, and in memory longer than in registers.
+void PixelMoments::add(std::span<const Rgbf> samples) {
+  PixelMoments moments = *this;
+  for (const Rgbf& sample : samples) add_sample(sample, moments);
+  *this = moments;
 }
 
 void PixelMoments::add_replicate(const PixelMoments& replicate) {
   non_finite += replicate.non_finite;
-  if (replicate.count > 0) add_finite(replicate.mean);
-}
-
-void PixelMoments::add_finite(const Rgbd& x) {
-  ++count;
-  const Rgbd before = minus(x, mean);
-  mean += before * (1.0 / count);
-  sum_squares += before * minus(x, mean);
+  if (replicate.count > 0) add_finite(replicate.mean, *this);
 }
 
 void PixelMoments::merge(const PixelMoments& other) {

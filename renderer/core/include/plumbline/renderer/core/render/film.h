@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <plumbline/renderer/core/math.h>
@@ -18,6 +19,8 @@ struct PixelMoments {
   Rgbd sum_squares;  ///< of the deviations from the mean
 
   void add(const Rgbf& sample);
+  /// The same bits as one by one, in order.
+  void add(std::span<const Rgbf> samples);
   void merge(const PixelMoments& other);
 
   /// Adds the mean of a replicate as one sample: what its samples share says nothing of its error.
@@ -26,9 +29,6 @@ struct PixelMoments {
 
   /// Unbiased variance of one sample; 0 for fewer than two.
   Rgbd variance() const;
-
- private:
-  void add_finite(const Rgbd& x);
 };
 
 /// An image under construction.
