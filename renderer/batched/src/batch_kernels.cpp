@@ -1,5 +1,6 @@
 #include "batch_kernels.h"
 
+#include <type_traits>
 #include <variant>
 
 #include <plumbline/renderer/batched/bsdf_kernels.h>
@@ -24,20 +25,24 @@ void sample_lanes(const Sample& sample_of, Shading& s, Run run) {
   }
 }
 
+/// What tells which of its two ways of sampling a light goes, if it has two.
+template <class L>
+auto way_of() {
+  if constexpr (requires { &L::by_solid_angle; }) return &L::by_solid_angle;
+  if constexpr (requires { &L::inward; }) return &L::inward;
+}
+
 /// The light with its way of sampling as a constant: no other is left in the loop.
-template <bool by_solid_angle, class L>
+template <bool way, class L>
 auto sampled_by(L light) {
-  return [light](const Vec3f& ref, const Vec2f& u) {
-    L fixed = light;
-    fixed.by_solid_angle = by_solid_angle;
-    return fixed.sample(ref, u);
-  };
+  light.*way_of<L>() = way;
+  return [light](const Vec3f& ref, const Vec2f& u) { return light.sample(ref, u); };
 }
 
 template <class L>
 PLUMBLINE_KERNEL void sample_light_of_type(const L& shared, Shading& s, Run run) {
-  if constexpr (requires { shared.by_solid_angle; }) {
-    if (shared.by_solid_angle) return sample_lanes(sampled_by<true>(shared), s, run);
+  if constexpr (!std::is_void_v<decltype(way_of<L>())>) {
+    if (shared.*way_of<L>()) return sample_lanes(sampled_by<true>(shared), s, run);
     return sample_lanes(sampled_by<false>(shared), s, run);
   }
   const Local<L> light = shared;

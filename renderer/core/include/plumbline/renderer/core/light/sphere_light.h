@@ -40,12 +40,12 @@ struct SphereLight {
   template <class T>
   T pdf_at_hit(const Vec3<T>& ref, const Vec3<T>& wi) const {
     if (inward) return pdf_from_inside(ref, wi);
-    const auto cone = cone_from(ref);
-    return cone ? uniform_cone_pdf_w(*cone) : T(0);
+    const Cone<T> cone = cone_from(ref);
+    return is_outside(cone) ? uniform_cone_pdf_w(cone) : T(0);
   }
 
  private:
-  /// The cone that the sphere subtends from a point outside.
+  /// The cone that the sphere subtends from a point outside; from inside numbers without a meaning.
   template <class T>
   struct Cone {
     Vec3<T> axis;         // unit, towards the centre
@@ -56,37 +56,43 @@ struct SphereLight {
   };
 
   template <class T>
-  std::optional<Cone<T>> cone_from(const Vec3<T>& ref) const {
-    using std::sqrt;
+  Cone<T> cone_from(const Vec3<T>& ref) const {
     const Vec3<T> to_center = vec_cast<T>(center) - ref;
     const T r = T(radius);
     const T d = length(to_center);
-    if (!(d > r)) return std::nullopt;
     const T gap = (d - r) * (d + r);
-    const T cos_max = sqrt(gap) / d;
+    const T cos_max = safe_sqrt(gap) / d;
     const T sin2_max = sqr(T(r / d));
-    return Cone<T>{to_center / d, d, gap, sin2_max, T(sin2_max / (T(1) + cos_max))};
+    return {to_center / d, d, gap, sin2_max, T(sin2_max / (T(1) + cos_max))};
   }
 
   template <class T>
+  bool is_outside(const Cone<T>& cone) const {
+    return cone.distance > T(radius);
+  }
+
+  // One way out, and that last: loops over many samples vectorise.
+  template <class T>
   std::optional<LightSample<T>> sample_cone(const Vec3<T>& ref, const Vec2<T>& u) const {
-    using std::cos, std::sin;
-    const auto cone = cone_from(ref);
-    if (!cone) return std::nullopt;
+    const Cone<T> cone = cone_from(ref);
     // h = 1 − cosθ is uniform in [0, 1 − cosθmax]; sin²θ = h (2 − h).
-    const T h = u.x * cone->one_minus_cos_max;
+    const T h = u.x * cone.one_minus_cos_max;
     const T sin2 = h * (T(2) - h);
     const T sin_theta = safe_sqrt(sin2);
     const T cos_theta = T(1) - h;
-    const T phi = T(2) * pi<T>() * u.y;
-    const Vec3<T> wi = Frame<T>(cone->axis)
-                           .to_world({T(sin_theta * cos(phi)), T(sin_theta * sin(phi)), cos_theta});
+    const SinCos<T> phi = sin_cos_turns(u.y);
+    const Vec3<T> wi =
+        Frame<T>(cone.axis).to_world({T(sin_theta * phi.cos), T(sin_theta * phi.sin), cos_theta});
     // Half chord: distance from the closest approach to the sphere. The nearer root is written as
     // (d² − R²)/(d cosθ + half chord), which does not cancel.
-    const T half_chord = safe_sqrt(T(sqr(T(radius)) - sqr(cone->distance) * sin2));
-    const T distance = cone->gap / (cone->distance * cos_theta + half_chord);
-    return LightSample<T>{wi, distance, T(half_chord / T(radius)), rgb_cast<T>(radiance),
-                          uniform_cone_pdf_w(*cone)};
+    const T half_chord = safe_sqrt(T(sqr(T(radius)) - sqr(cone.distance) * sin2));
+    const T distance = cone.gap / (cone.distance * cos_theta + half_chord);
+    if (!is_outside(cone)) return std::nullopt;
+    return LightSample<T>{.wi = wi,
+                          .distance = distance,
+                          .cos_light = T(half_chord / T(radius)),
+                          .radiance = rgb_cast<T>(radiance),
+                          .pdf_w = uniform_cone_pdf_w(cone)};
   }
 
   template <class T>
@@ -96,11 +102,10 @@ struct SphereLight {
 
   template <class T>
   T pdf_cone(const Vec3<T>& ref, const Vec3<T>& wi) const {
-    const auto cone = cone_from(ref);
-    if (!cone || !(dot(wi, cone->axis) > T(0))) return T(0);
+    const Cone<T> cone = cone_from(ref);
+    if (!is_outside(cone) || !(dot(wi, cone.axis) > T(0))) return T(0);
     // sin²θ from the cross product: exact for small angles, where cosθ has no digits left.
-    return length_squared(cross(wi, cone->axis)) <= cone->sin2_max ? uniform_cone_pdf_w(*cone)
-                                                                   : T(0);
+    return length_squared(cross(wi, cone.axis)) <= cone.sin2_max ? uniform_cone_pdf_w(cone) : T(0);
   }
 
   // A reference point on the sphere itself (a closed furnace) may lie outside by a rounding error,
