@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include <plumbline/renderer/core/light/light.h>
 #include <plumbline/renderer/core/light/spherical_rectangle.h>
 #include <plumbline/renderer/core/light/spherical_triangle.h>
+#include <plumbline/renderer/core/sampling/discrete.h>
 #include "threshold.h"
 
 /// The thresholds of light/. A row names the place in the core.
@@ -196,6 +199,16 @@ std::vector<Threshold> spherical_rectangle_thresholds() {
         {"light/spherical_rectangle.h more than a quarter of the sphere, h " + std::to_string(h),
          double_around(h), seen, thrice(solid_angle_below_middle(1, 0.5, h)), 2e-6});
   }
+  // From 1 m below an edge the middle of what is seen is k = (0 + 1/√2)/2, y = k/√(1 − k²) = 1/√7.
+  rows.push_back({"light/spherical_rectangle.h y < 0, a corner below the reference point",
+                  {-1e-7, 0, 1e-7},
+                  [](double y) {
+                    const renderer::SphericalRectangle<float> above({-1, y, 1}, {2, 0, 0},
+                                                                    {0, 1, 0}, {0, 0, 1});
+                    return double{above.sample({0.5f, 0.5f}).y};
+                  },
+                  thrice(1 / std::sqrt(7.0)),
+                  1e-6});
   return rows;
 }
 
@@ -306,6 +319,20 @@ std::vector<Threshold> infinite_light_thresholds() {
   };
 }
 
+/// The choice at the first number that is choice 7's, and at the one before it.
+double choices_at_a_bound(double choices) {
+  const renderer::DiscreteDistribution alike(
+      std::vector<double>(static_cast<std::size_t>(choices), 1));
+  float bound = 0;
+  for (std::uint32_t i = 0; i < 7; ++i) bound += alike.pmf<float>(i);
+  return 10.0 * alike.sample(bound).index + alike.sample(std::nextafter(bound, 0.0f)).index;
+}
+
+std::vector<Threshold> choice_thresholds() {
+  return {{"sampling/discrete.h kFew, which choice", {15, 16, 17}, choices_at_a_bound, thrice(76)}};
+}
+
+TEST(Thresholds, OfChoicesDoNotShow) { expect_all_hold(choice_thresholds()); }
 TEST(Thresholds, OfFlatLights) { expect_all_hold(flat_light_thresholds()); }
 TEST(Thresholds, OfTheSmallestSolidAngleDoNotShow) { expect_all_hold(solid_angle_thresholds()); }
 TEST(Thresholds, OfSolidAnglesOfRectanglesDoNotShow) {

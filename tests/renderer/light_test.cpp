@@ -2,17 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include <plumbline/renderer/core/light/spherical_rectangle.h>
 #include <plumbline/renderer/core/sampling/pcg32.h>
 #include <plumbline/renderer/core/sampling/sobol.h>
 
 namespace plumbline::renderer {
 namespace {
+
+using Vec2d = Vec2<double>;
 
 std::vector<Light> one_of_each() {
   const Rgbf white{1, 1, 1};
@@ -116,6 +120,66 @@ TEST(LightSet, NothingIsSampledFromBehindAOneSidedLight) {
     EXPECT_EQ(pdf(light, behind, Vec3<double>{0, 0, -1}), 0) << light.index();
   }
   EXPECT_EQ(one_sided, 3);  // rectangle, disk and triangle
+}
+
+/// How a rectangle is seen from the origin, along its sides x and y and its distance z.
+struct Seen {
+  double x, y, width, height, z;
+
+  template <class Angle>
+  Vec3d sample(const Vec2d& u) const {
+    const SphericalRectangle<Angle> rectangle({x, y, z}, {width, 0, 0}, {0, height, 0}, {0, 0, 1});
+    return vec_cast<double>(rectangle.sample({static_cast<Angle>(u.x), static_cast<Angle>(u.y)}));
+  }
+};
+
+/// Sides from 0.01 to 1,000 distances, and the foot of the distance from within to 10 sides off.
+Seen random_rectangle(Pcg32& random) {
+  const auto power_of_ten = [&](float low, float high) {
+    return std::pow(10.0, static_cast<double>(low + (high - low) * random.next_1d()));
+  };
+  const double width = power_of_ten(-2, 3), height = power_of_ten(-2, 3);
+  const auto sideways = [&] {
+    return (static_cast<double>(random.next_1d()) - 0.5) * power_of_ten(0, 1.3f) - 0.5;
+  };
+  const double x = sideways() * width, y = sideways() * height;
+  return {x, y, width, height, 1};
+}
+
+TEST(SphericalRectangle, AFloatSampleIsThatOfNumbersNearby) {
+  // u.x times the solid angle, which has six digits, and the sine and cosine of half of it with an
+  // error of 1.2e-7, are an error of u.x of 2e-6 + 2.4e-7/Ω. So the point lies between those of the
+  // numbers around. What y is made of in float adds, to first order and all of one sign, 23·2⁻²⁴ in
+  // 1 ± k each and 27·2⁻²⁴ in what they are multiplied with: 50·2⁻²⁴ of the distance.
+  Pcg32 random(1, 0, 0);
+  for (int i = 0; i < 20'000; ++i) {
+    const Seen seen = random_rectangle(random);
+    const SphericalRectangle<double> exact({seen.x, seen.y, seen.z}, {seen.width, 0, 0},
+                                           {0, seen.height, 0}, {0, 0, 1});
+    if (exact.solid_angle() < kSmallestSolidAngle) continue;  // sampled by area
+    const double off_x = 2e-6 + 2.4e-7 / exact.solid_angle(), off_y = 0x1p-22;
+    const Vec2f drawn = random.next_2d();
+    const Vec2d u{static_cast<double>(drawn.x), static_cast<double>(drawn.y)};
+    const auto around = [](double a, double off) {
+      return std::array{std::max(a - off, 0.0), std::min(a + off, 1.0)};
+    };
+    Vec3d low{1e9, 1e9, 0}, high{-1e9, -1e9, 0};
+    for (const double a : around(u.x, off_x)) {
+      for (const double b : around(u.y, off_y)) {
+        const Vec3d p = seen.sample<double>({a, b});
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
+      }
+    }
+    const Vec3d p = seen.sample<float>(u);
+    const double rounding = 50 * 0x1p-24 * length(p);
+    ASSERT_TRUE(p.x >= low.x - rounding && p.x <= high.x + rounding)
+        << i << ": x " << p.x << " outside " << low.x << " … " << high.x << ", " << seen.x << ' '
+        << seen.width << ' ' << seen.height << ", solid angle " << exact.solid_angle();
+    ASSERT_TRUE(p.y >= low.y - rounding && p.y <= high.y + rounding)
+        << i << ": y " << p.y << " outside " << low.y << " … " << high.y << ", " << seen.y << ' '
+        << seen.width << ' ' << seen.height << ", solid angle " << exact.solid_angle();
+  }
 }
 
 TEST(SphereLight, SolidAngleIsRightToSixDigitsInFloatHoweverSmallTheCone) {

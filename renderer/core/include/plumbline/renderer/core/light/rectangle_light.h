@@ -86,24 +86,21 @@ struct RectangleLight {
   // Both ways of choosing the point and one way out: loops over many samples vectorise.
   template <class T>
   std::optional<LightSample<T>> sample_solid_angle(const Vec3<T>& ref, const Vec2<T>& u) const {
-    using W = Wide<T>;
     const SphericalRectangle<T> seen = seen_from(ref);
     const bool large = large_enough(seen);
-    const Vec3<W> by_angle = seen.sample(u);
-    const Vec3<W> by_area = vec_cast<W>(origin) + vec_cast<W>(edge_u) * static_cast<W>(u.x) +
-                            vec_cast<W>(edge_v) * static_cast<W>(u.y) - vec_cast<W>(ref);
-    const Vec3<W> to_light{large ? by_angle.x : by_area.x, large ? by_angle.y : by_area.y,
+    const Vec3<T> by_angle = seen.sample(u), by_area = seen.sample_area(u);
+    const Vec3<T> to_light{large ? by_angle.x : by_area.x, large ? by_angle.y : by_area.y,
                            large ? by_angle.z : by_area.z};
-    const W distance = length(to_light);
-    const T cos_front = static_cast<T>(seen.height() / distance);
+    const T distance = length(to_light), per_distance = T(1) / distance;
+    const T cos_front = static_cast<T>(seen.height()) * per_distance;
     const T cos_light = two_sided && cos_front < T(0) ? -cos_front : cos_front;
-    const T pdf_by_area = static_cast<T>(sqr(distance)) / (cos_light * area<T>());
+    const T angle_by_area = cos_light * area<T>() * sqr(per_distance);
     if (!(cos_light > T(0))) return std::nullopt;
-    return LightSample<T>{.wi = vec_cast<T>(to_light / distance),
-                          .distance = static_cast<T>(distance),
+    return LightSample<T>{.wi = to_light * per_distance,
+                          .distance = distance,
                           .cos_light = cos_light,
                           .radiance = rgb_cast<T>(radiance),
-                          .pdf_w = large ? T(T(1) / seen.solid_angle()) : pdf_by_area};
+                          .pdf_w = T(1) / (large ? seen.solid_angle() : angle_by_area)};
   }
 };
 

@@ -53,22 +53,18 @@ class SphericalRectangle {
 
   /// @param u  in [0, 1)²
   /// @return   point of the rectangle, seen from the reference point
-  Vec3<T> sample(const Vec2<Angle>& u) const {
-    using std::sqrt;
-    const Turn beta = turned_on(u.x * solid_angle_);
-    const T b0 = -y0_ / sqrt(sqr(height_) + sqr(y0_));
-    const T b1 = y1_ / sqrt(sqr(height_) + sqr(y1_));
-    const T numerator = b0 * beta.cosine + b1;
-    // x = h c/√(1 − c²) with c² = numerator²/(numerator² + (1 − b0²) sin²β) turned round.
-    const T one_minus_b0_squared = sqr(height_) / (sqr(height_) + sqr(y0_));
-    const T root = safe_sqrt(T(sqr(numerator) - one_minus_b0_squared * sqr(beta.sine)));
-    const T x = (numerator >= T(0) ? T(1) : T(-1)) * height_ * beta.sine / root;
-    const T d = sqrt(sqr(x) + sqr(height_));
-    const T h0 = y0_ / sqrt(sqr(d) + sqr(y0_)), h1 = y1_ / sqrt(sqr(d) + sqr(y1_));
-    const T h = h0 + static_cast<T>(u.y) * (h1 - h0);
-    const T y = h * d / sqrt(T((T(1) - h) * (T(1) + h)));
+  Vec3<Angle> sample(const Vec2<Angle>& u) const {
     // Rounding may leave the rectangle by its last digits, at the very edge.
-    return x_axis_ * clamp(x, x0_, x1_) + y_axis_ * clamp(y, y0_, y1_) - normal_ * side_;
+    const auto x = static_cast<Angle>(clamp(x_by_angle(u.x * solid_angle_), x0_, x1_));
+    const auto y0 = static_cast<Angle>(y0_), y1 = static_cast<Angle>(y1_);
+    return at(x, clamp(y_on_line(x, u.y), y0, y1));
+  }
+
+  /// The same, uniform by area.
+  Vec3<Angle> sample_area(const Vec2<Angle>& u) const {
+    const T x = x0_ + static_cast<T>(u.x) * (x1_ - x0_),
+            y = y0_ + static_cast<T>(u.y) * (y1_ - y0_);
+    return at(static_cast<Angle>(x), static_cast<Angle>(y));
   }
 
  private:
@@ -77,8 +73,14 @@ class SphericalRectangle {
     T cosine, sine;
   };
 
-  static T clamp(const T& x, const T& low, const T& high) {
+  template <class X>
+  static X clamp(const X& x, const X& low, const X& high) {
     return x < low ? low : (x > high ? high : x);
+  }
+
+  Vec3<Angle> at(const Angle& x, const Angle& y) const {
+    return vec_cast<Angle>(x_axis_) * x + vec_cast<Angle>(y_axis_) * y -
+           vec_cast<Angle>(normal_) * static_cast<Angle>(side_);
   }
 
   /// By π/2 minus the angle of the spherical rectangle at a corner, or its negative.
@@ -92,16 +94,55 @@ class SphericalRectangle {
     return {T(a.cosine * b.cosine + a.sine * b.sine), T(a.sine * b.cosine - a.cosine * b.sine)};
   }
 
-  /// By the first angle and `angle` more. From half of it, made unit again: 1 − 2 sin² keeps the
-  /// digits of a small angle that the cosine of a float has lost.
-  Turn turned_on(const Angle& angle) const {
+  /// By the sum of two angles.
+  static Turn turned_on(const Turn& a, const Turn& b) {
+    return {T(a.cosine * b.cosine - a.sine * b.sine), T(a.sine * b.cosine + a.cosine * b.sine)};
+  }
+
+  // Square roots and divisions in double are what a sample's time goes to. x is found by one of
+  // each, everything multiplied with what it would be divided by: with h the height, P² = h² + y0²
+  // and Q² = h² + y1², b0 = −y0/P, b1 = y1/Q, and the length of the first turn is (h² + x0²) P Q.
+  // What follows on x needs no more digits than the direction that it ends in.
+
+  /// Where the rectangle up to the line x subtends `angle` [sr]: x = h c/√(1 − c²) with c² =
+  /// f²/(f² + (1 − b0²) sin²β) turned round, f = b0 cosβ + b1.
+  T x_by_angle(const Angle& angle) const {
     using std::sqrt;
-    const SinCos<Angle> half = sin_cos_turns(Angle(angle / (Angle(4) * pi<Angle>())));
+    // From half of it: 1 − 2 sin² keeps the digits of a small angle that the cosine of a float has
+    // lost.
+    const SinCos<Angle> half = sin_cos_turns(Angle(angle * (Angle(1) / (Angle(4) * pi<Angle>()))));
     const T s = static_cast<T>(half.sin), c = static_cast<T>(half.cos);
-    const T unit = T(1) / ((sqr(s) + sqr(c)) * sqrt(sqr(first_.cosine) + sqr(first_.sine)));
-    const T cosine = (c - s) * (c + s) * unit, sine = T(2) * s * c * unit;
-    return {T(first_.cosine * cosine - first_.sine * sine),
-            T(first_.sine * cosine + first_.cosine * sine)};
+    const Turn beta = turned_on(first_, {T((c - s) * (c + s)), T(T(2) * s * c)});
+    const T p2 = sqr(height_) + sqr(y0_);
+    const T length_over_pq = (sqr(s) + sqr(c)) * (sqr(height_) + sqr(x0_));
+    const T f = y1_ * p2 * length_over_pq - y0_ * beta.cosine;  // P times, and the length's
+    const T h_sine = height_ * beta.sine, rest = sqr(f) - sqr(h_sine);
+    const T x = h_sine * sqrt(T(p2 / (rest > T(0) ? rest : T(0))));  // rounding may leave no rest
+    return f >= T(0) ? x : -x;
+  }
+
+  /// 1 + k and 1 − k of the point y of a line, k = y/√(d² + y²), and neither by a difference.
+  struct Shares {
+    Angle above, below;
+
+    Shares(const Angle& y, const Angle& d2) {
+      using std::sqrt;
+      const Angle abs_y = y < Angle(0) ? -y : y, root = sqrt(d2 + sqr(y)), sum = root + abs_y;
+      const Angle scale = Angle(1) / (root * sum), larger = sqr(sum) * scale, smaller = d2 * scale;
+      above = y < Angle(0) ? smaller : larger;
+      below = y < Angle(0) ? larger : smaller;
+    }
+  };
+
+  /// The point on a line x up to which a share v of the line is seen: k goes evenly from that of y0
+  /// to that of y1, and y = k d/√(1 − k²), d² = x² + h².
+  Angle y_on_line(const Angle& x, const Angle& v) const {
+    using std::sqrt;
+    const Angle d2 = sqr(x) + sqr(static_cast<Angle>(height_));
+    const Shares first(static_cast<Angle>(y0_), d2), last(static_cast<Angle>(y1_), d2);
+    const Angle above = (Angle(1) - v) * first.above + v * last.above;
+    const Angle below = (Angle(1) - v) * first.below + v * last.below;
+    return (above - below) / Angle(2) * sqrt(Angle(d2 / (above * below)));
   }
 
   Vec3<T> x_axis_, y_axis_, normal_;

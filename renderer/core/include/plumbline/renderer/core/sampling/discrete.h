@@ -35,9 +35,7 @@ class DiscreteDistribution {
   /// @param u  in [0, 1); increasing u chooses increasing indices, which keeps it stratified
   template <class T>
   Choice<T> sample(const T& u) const {
-    const auto above = std::upper_bound(bounds_.begin() + 1, bounds_.end() - 1, u,
-                                        [](const T& x, float bound) { return x < T(bound); });
-    const auto index = static_cast<std::uint32_t>(above - bounds_.begin()) - 1;
+    const std::uint32_t index = index_at(u);
     const T p = pmf<T>(index);
     const T one_minus_ulp = T(1) - std::numeric_limits<T>::epsilon() / T(2);
     return {index, p, std::min(T((u - T(bounds_[index])) / p), one_minus_ulp)};
@@ -51,6 +49,21 @@ class DiscreteDistribution {
   }
 
  private:
+  /// How many of the inner bounds u has passed. Where they are few all are asked: which way a
+  /// search would turn cannot be predicted.
+  template <class T>
+  std::uint32_t index_at(const T& u) const {
+    constexpr std::uint32_t kFew = 16;
+    if (size() <= kFew) {
+      std::uint32_t passed = 0;
+      for (std::uint32_t i = 1; i < size(); ++i) passed += u < T(bounds_[i]) ? 0u : 1u;
+      return passed;
+    }
+    const auto above = std::upper_bound(bounds_.begin() + 1, bounds_.end() - 1, u,
+                                        [](const T& x, float bound) { return x < T(bound); });
+    return static_cast<std::uint32_t>(above - bounds_.begin()) - 1;
+  }
+
   std::vector<float> bounds_{0.0f};  // N + 1, from 0 to 1: the cumulative probabilities
 };
 
