@@ -8,18 +8,11 @@
 
 namespace plumbline::renderer {
 
-/// Reverses the bits of both halves: of the high one into the low one, and the other way.
-constexpr std::uint64_t reverse_bits(std::uint64_t v) {
-  v = (v >> 32) | (v << 32);
-  v = ((v & 0x0000ffff0000ffffu) << 16) | ((v >> 16) & 0x0000ffff0000ffffu);
-  v = ((v & 0x00ff00ff00ff00ffu) << 8) | ((v >> 8) & 0x00ff00ff00ff00ffu);
-  v = ((v & 0x0f0f0f0f0f0f0f0fu) << 4) | ((v >> 4) & 0x0f0f0f0f0f0f0f0fu);
-  v = ((v & 0x3333333333333333u) << 2) | ((v >> 2) & 0x3333333333333333u);
-  return ((v & 0x5555555555555555u) << 1) | ((v >> 1) & 0x5555555555555555u);
-}
-
 constexpr std::uint32_t reverse_bits(std::uint32_t v) {
-  return static_cast<std::uint32_t>(reverse_bits(std::uint64_t{v}) >> 32);
+  v = (v >> 24) | ((v >> 8) & 0x0000ff00u) | ((v << 8) & 0x00ff0000u) | (v << 24);
+  v = ((v & 0x0f0f0f0fu) << 4) | ((v >> 4) & 0x0f0f0f0fu);
+  v = ((v & 0x33333333u) << 2) | ((v >> 2) & 0x33333333u);
+  return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
 }
 
 /// Owen's scrambling in base 2 of a number with its bits reversed: each bit is flipped or not by a
@@ -78,9 +71,7 @@ class SobolSampler {
     const std::uint32_t index = shuffled_index(seeds);
     const std::uint32_t x = owen_scramble_reversed(index, seeds.x);
     const std::uint32_t y = owen_scramble_reversed(sobol_second_reversed(index), seeds.y);
-    const std::uint64_t both = reverse_bits(std::uint64_t{y} << 32 | x);
-    return {to_unit(static_cast<std::uint32_t>(both >> 32)),
-            to_unit(static_cast<std::uint32_t>(both))};
+    return {to_unit(reverse_bits(x)), to_unit(reverse_bits(y))};
   }
 
  private:
