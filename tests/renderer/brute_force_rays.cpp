@@ -38,7 +38,7 @@ HardRays::Place HardRays::place_on(unsigned kind, std::size_t index) {
       u = 1 - u;
       v = 1 - v;
     }
-    const Corners c = geometry_.corners(kind, index);
+    const Corners c = geometry_.primitives[kind][index].corners;
     const Vec3d v0 = vec_cast<double>(c.v0);
     return {v0 + (vec_cast<double>(c.v1) - v0) * u + (vec_cast<double>(c.v2) - v0) * v,
             vec_cast<double>(geometry_.primitives[kind][index].normal)};

@@ -109,9 +109,10 @@ double unit_of(const SceneGeometry& geometry, const Ray& ray, const Answer& hit)
     return most + std::min(most * radius / half, std::sqrt(2 * most * radius));
   }
   const Vec3d n = vec_cast<double>(geometry.primitives[hit.kind][hit.index].normal);
-  const Vec3d w = vec_cast<double>(is_flat(hit.kind) ? geometry.corners(hit.kind, hit.index).v0
-                                                     : geometry.disks[hit.index].center) -
-                  o;
+  const Vec3d w =
+      vec_cast<double>(is_flat(hit.kind) ? geometry.primitives[hit.kind][hit.index].corners.v0
+                                         : geometry.disks[hit.index].center) -
+      o;
   return 0x1p-24 * (std::abs(n.x * w.x) + std::abs(n.y * w.y) + std::abs(n.z * w.z) + std::abs(t)) /
          std::abs(dot(n, d));
 }
@@ -287,8 +288,8 @@ TEST(BruteForce, TheJudgeRefusesWhatIsWrong) {
   const SceneGeometry& geometry = scene.geometry();
   const Ray through{{0.25f, 0.25f, 0}, {0, 0, 1}}, beside{{1.000001f, 0, 0}, {0, 0, 1}};
   const Answer none{RTC_INVALID_GEOMETRY_ID, 0, 0, 0, 0};
-  const float z = geometry.corners(kRectangles, 0).v0.z,
-              behind = geometry.corners(kRectangles, 1).v0.z;
+  const float z = geometry.primitives[kRectangles][0].corners.v0.z,
+              behind = geometry.primitives[kRectangles][1].corners.v0.z;
   EXPECT_EQ(fault_of(geometry, through, {kRectangles, 0, 0, 0, z}), "");
   EXPECT_NE(fault_of(geometry, through, {kRectangles, 1, 0, 0, behind}), "") << "not the nearest";
   EXPECT_NE(fault_of(geometry, through, none), "") << "a miss";

@@ -8,34 +8,11 @@
 #include <plumbline/renderer/core/render/vertex.h>
 
 #include "batch_kernels.h"
+#include "order.h"
 #include "ray_packets.h"
 
 namespace plumbline::renderer {
 namespace {
-
-/// Stable counting sort of 0 … count − 1 by key, into `order`.
-class CountingSort {
- public:
-  /// @param keys  each < bins
-  void sort(const IndexLanes& keys, std::size_t count, std::size_t bins) {
-    ends_.assign(bins, 0);
-    std::uint32_t* __restrict ends = ends_.data();
-    for (std::size_t i = 0; i < count; ++i) ++ends[keys[i]];
-    std::uint32_t before = 0;
-    for (std::uint32_t& end : ends_) before += std::exchange(end, before);
-    std::uint32_t* __restrict order = order_.data();
-    for (std::size_t i = 0; i < count; ++i) order[ends[keys[i]]++] = static_cast<std::uint32_t>(i);
-  }
-
-  /// Where the run of a key starts in order(), and where it ends.
-  std::size_t begin(std::size_t key) const { return key == 0 ? 0 : ends_[key - 1]; }
-  std::size_t end(std::size_t key) const { return ends_[key]; }
-  const IndexLanes& order() const { return order_; }
-
- private:
-  std::vector<std::uint32_t> ends_;
-  IndexLanes order_{};
-};
 
 /// Puts values into the order of the vertices that are shaded together.
 class Gather {
@@ -66,18 +43,13 @@ class Gather {
   }
 
  private:
-  template <class T>
-  static void gather(T* __restrict to, const T* __restrict from,
-                     const std::uint32_t* __restrict order, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) to[k] = from[order[k]];
-  }
-
   const IndexLanes& order_;
   std::size_t count_;
 };
 
 /// Where the run of equal values that starts at `first` ends, before `limit`.
-std::size_t run_end(const IndexLanes& values, std::size_t first, std::size_t limit) {
+template <class T>
+std::size_t run_end(const std::array<T, kBatch>& values, std::size_t first, std::size_t limit) {
   std::size_t end = first + 1;
   while (end < limit && values[end] == values[first]) ++end;
   return end;
@@ -98,8 +70,8 @@ struct RandomLanes {
     }
   }
 
-  [[gnu::flatten]] void draw(std::size_t count, Lanes<float>& u, Lanes<float>& v) {
-    for (std::size_t k = 0; k < count; ++k) {
+  [[gnu::flatten]] void draw(Run run, Lanes<float>& u, Lanes<float>& v) {
+    for (std::size_t k = run.first; k < run.end; ++k) {
       Source source({state[k], constant[k]});
       const Vec2f pair = source.next_2d();
       u[k] = pair.x;
@@ -109,15 +81,10 @@ struct RandomLanes {
   }
 
   /// Where `wanted` is 0 the pair is drawn in vain.
-  [[gnu::flatten]] void draw(const IndexLanes& wanted, std::size_t count, Lanes<float>& u,
-                             Lanes<float>& v) {
-    for (std::size_t k = 0; k < count; ++k) {
-      Source source({state[k], constant[k]});
-      const Vec2f pair = source.next_2d();
-      u[k] = pair.x;
-      v[k] = pair.y;
-      state[k] = wanted[k] != 0 ? source.state()[0] : state[k];
-    }
+  void draw(const IndexLanes& wanted, std::size_t count, Lanes<float>& u, Lanes<float>& v) {
+    const Lanes<std::uint64_t> before = state;
+    draw({0, count}, u, v);
+    for (std::size_t k = 0; k < count; ++k) state[k] = wanted[k] != 0 ? state[k] : before[k];
   }
 
   [[gnu::flatten]] void draw(std::size_t count, Lanes<float>& u) {
@@ -170,14 +137,17 @@ class Batch final : public PixelSampler {
       if (!within(options_, depth + 1)) break;
       shade(depth);
     }
-    for (std::size_t i = 0; i < paths; ++i) targets_[i]->add(radiance_[i]);
+    for (std::size_t first = 0, end = 0; first < paths; first = end) {
+      end = run_end(targets_, first, paths);
+      targets_[first]->add({&radiance_[first], end - first});
+    }
   }
 
  private:
   [[gnu::flatten]] void launch() {
     s_.count = std::exchange(started_, 0);
     random_.start(seed_, net_, index_, s_.count);
-    random_.draw(s_.count, s_.u, s_.v);
+    random_.draw({0, s_.count}, s_.u, s_.v);
     const Camera camera = scene_.camera();
     const Vec3f origin = camera.origin();
     for (std::size_t i = 0, end = s_.count; i < end; ++i) {
@@ -203,11 +173,15 @@ class Batch final : public PixelSampler {
 
   bool samples_light() const { return techniques_.draw_light > 0; }
 
+  /// Whether there are lights to choose from, by which vertices are sorted then. With one, or none,
+  /// numbers are drawn after, for those alone that ask for a light sample.
+  bool chooses_light() const { return samples_light() && scene_.lights().size() > 1; }
+
   /// Emission is rare among the ends of rays, so it is looked at one by one.
   void add_emission(int depth) {
     for (std::size_t k = 0; k < flying_; ++k) {
       const std::uint32_t i = rays_.order()[k];
-      const std::uint32_t light = light_at_end(k);
+      const std::uint32_t light = hits_.bsdf[k] == kNoHit ? scene_.environment() : hits_.light[k];
       if (light == kNoLight) continue;
       const Vec3f direction = s_.next.direction[i];
       const Arrival arrival{techniques_, s_.pdf_w[i], s_.atom_mass[i] > 0, s_.position[i]};
@@ -216,10 +190,6 @@ class Batch final : public PixelSampler {
                                                emission_of(scene_, light, direction), direction,
                                                depth > 1 ? &arrival : nullptr);
     }
-  }
-
-  std::uint32_t light_at_end(std::size_t k) const {
-    return hits_.bsdf[k] == kNoHit ? scene_.environment() : hits_.light[k];
   }
 
   void shade(int depth) {
@@ -231,7 +201,7 @@ class Batch final : public PixelSampler {
       weigh_lights(options_, s_);
       cast_shadows();
     }
-    random_.draw(s_.count, s_.u, s_.v);
+    random_.draw({0, s_.count}, s_.u, s_.v);
     for_each_bsdf([&](std::uint32_t bsdf, Run run) {
       if (finds_no_more(options_, techniques_, scene_.bsdfs().parts(bsdf), depth)) {
         for (std::size_t k = run.first; k < run.end; ++k) s_.weight.set(k, {});
@@ -253,25 +223,23 @@ class Batch final : public PixelSampler {
 
   template <class Function>
   void for_each_bsdf(const Function& function) {
-    for (std::size_t first = 0, end = 0; first < s_.count; first = end) {
-      end = run_end(s_.bsdf, first, s_.count);
-      function(s_.bsdf[first], Run{first, end});
+    for (std::uint32_t bsdf = 0; bsdf < bsdf_count_; ++bsdf) {
+      const std::size_t first = bsdf * lights_apart_, last = first + lights_apart_ - 1;
+      const Run run{vertices_.begin(first), vertices_.end(last)};
+      if (run.first < run.end) function(bsdf, run);
     }
   }
 
   /// A path that asks no light draws no number for it.
   void choose_lights() {
-    if (!samples_light()) return;
+    if (!chooses_light()) return;
     const std::uint32_t* has_density = has_density_.data();
-    const std::uint32_t none = bsdf_count_;
     for (std::size_t k = 0, end = flying_; k < end; ++k) {
-      wanted_[rays_.order()[k]] = has_density[std::min(hits_.bsdf[k], none)];
+      wanted_[rays_.order()[k]] = has_density[std::min(hits_.bsdf[k], bsdf_count_)];
     }
     random_.draw(wanted_, s_.count, s_.u, s_.v);
-    const LightSet& lights = scene_.lights();
-    if (lights.size() < 2) return;
     for (std::size_t i = 0; i < s_.count; ++i) {
-      const auto choice = lights.choose(Vec2f{s_.u[i], s_.v[i]});
+      const auto choice = scene_.lights().choose(Vec2f{s_.u[i], s_.v[i]});
       s_.light[i] = choice.light;
       s_.pmf[i] = choice.pmf;
       s_.u[i] = choice.u.x;
@@ -281,9 +249,10 @@ class Batch final : public PixelSampler {
   /// Sorts by BSDF and light where their pairs are few enough to count, else by BSDF.
   void gather_vertices() {
     const std::uint32_t bsdfs = bsdf_count_;
-    const std::size_t lights = samples_light() ? scene_.lights().size() : 0;
-    const bool by_light = lights > 1 && bsdfs * lights <= kBatch;
+    const std::size_t lights = scene_.lights().size();
+    const bool by_light = chooses_light() && bsdfs * lights <= kBatch;
     const auto stride = static_cast<std::uint32_t>(by_light ? lights : 1);
+    lights_apart_ = stride;
     for (std::size_t k = 0, end = flying_; k < end; ++k) {
       const std::uint32_t light = by_light ? s_.light[rays_.order()[k]] : 0;
       keys_[k] = std::min(hits_.bsdf[k], bsdfs) * stride + light;
@@ -292,7 +261,6 @@ class Batch final : public PixelSampler {
     vertices_.sort(keys_, flying_, escaped + stride);
     s_.count = vertices_.begin(escaped);
     const Gather gather_hits(vertices_.order(), s_.count);
-    gather_hits(s_.bsdf, hits_.bsdf);
     gather_hits(s_.position, hits_.position);
     gather_hits(s_.normal, hits_.normal);
     gather_hits(s_.offset, hits_.offset);
@@ -304,10 +272,9 @@ class Batch final : public PixelSampler {
     gather(s_.path);
     gather(random_.state);
     gather(random_.constant);
-    if (!samples_light()) return;
+    if (!chooses_light()) return;
     gather(s_.u);
     gather(s_.v);
-    if (lights < 2) return;
     gather(s_.light);
     gather(s_.pmf);
   }
@@ -316,13 +283,14 @@ class Batch final : public PixelSampler {
   void sample_lights(std::uint32_t bsdf, Run run) {
     const LightSet& lights = scene_.lights();
     const bool density = scene_.bsdfs().parts(bsdf).density;
+    if (density && !chooses_light()) random_.draw(run, s_.u, s_.v);
     if (!density || lights.empty()) {
       for (std::size_t k = run.first; k < run.end; ++k) s_.pdf_light[k] = s_.mass[k] = 0;
       if (density) counters.rejected += run.end - run.first;
       return;
     }
     for (std::size_t first = run.first, end = 0; first < run.end; first = end) {
-      end = run_end(s_.light, first, run.end);
+      end = chooses_light() ? run_end(s_.light, first, run.end) : run.end;
       sample_light(lights[s_.light[first]], s_, {first, end});
     }
     for (std::size_t k = run.first; k < run.end; ++k) {
@@ -353,6 +321,7 @@ class Batch final : public PixelSampler {
   std::uint64_t seed_;
   std::uint32_t bsdf_count_;
   std::vector<std::uint32_t> has_density_;  // of each BSDF, 0 or 1; 0 after the last one
+  std::size_t lights_apart_ = 1;  // into how many runs the vertices of one BSDF are sorted
   std::size_t started_ = 0;
   Lanes<float> pixel_x_, pixel_y_;
   Lanes<std::uint64_t> net_, index_;

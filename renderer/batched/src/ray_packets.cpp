@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "order.h"
+
 namespace plumbline::renderer {
 namespace {
 
@@ -33,15 +35,12 @@ void prepare(RTCRay16& packet) {
 }
 
 void load(RTCRay16& packet, const RayLanes& rays, const std::uint32_t* order) {
-  for (std::size_t k = 0; k < kPacket; ++k) {
-    const std::uint32_t i = order[k];
-    packet.org_x[k] = rays.origin.x[i];
-    packet.org_y[k] = rays.origin.y[i];
-    packet.org_z[k] = rays.origin.z[i];
-    packet.dir_x[k] = rays.direction.x[i];
-    packet.dir_y[k] = rays.direction.y[i];
-    packet.dir_z[k] = rays.direction.z[i];
-  }
+  gather(packet.org_x, rays.origin.x.data(), order, kPacket);
+  gather(packet.org_y, rays.origin.y.data(), order, kPacket);
+  gather(packet.org_z, rays.origin.z.data(), order, kPacket);
+  gather(packet.dir_x, rays.direction.x.data(), order, kPacket);
+  gather(packet.dir_y, rays.direction.y.data(), order, kPacket);
+  gather(packet.dir_z, rays.direction.z.data(), order, kPacket);
 }
 
 void store(HitLanes& hits, std::size_t i, const SurfaceHit& hit) {
@@ -52,30 +51,37 @@ void store(HitLanes& hits, std::size_t i, const SurfaceHit& hit) {
   hits.light[i] = hit.light;
 }
 
-/// Corners of the flat surfaces that a packet hits, side by side.
-struct CornerLanes {
-  Vec3LanesOf<kPacket> v0{}, v1{}, v2{};
+}  // namespace
 
-  void set(std::size_t k, const Corners& corners) {
-    v0.set(k, corners.v0);
-    v1.set(k, corners.v1);
-    v2.set(k, corners.v2);
+/// The flat surfaces that a packet hits, side by side; others keep those of packets before.
+struct RayPackets::FlatLanes {
+  Vec3LanesOf<kPacket> v0, v1, v2, normal;
+  Lanes<std::uint32_t, kPacket> light, light_behind;
+
+  void set(std::size_t k, const Primitive& flat) {
+    v0.set(k, flat.corners.v0);
+    v1.set(k, flat.corners.v1);
+    v2.set(k, flat.corners.v2);
+    normal.set(k, flat.normal);
+    light[k] = flat.light;
+    light_behind[k] = flat.light_behind;
+  }
+
+  /// All but the BSDFs of hits from `first` on; what is not flat gets numbers without a meaning.
+  [[gnu::flatten]] void find_points(const RTCRayHit16& __restrict packet, std::size_t first,
+                                    HitLanes& __restrict hits) const {
+    for (std::size_t k = 0; k < kPacket; ++k) {
+      const Vec3f n = normal[k];
+      const Vec3f position =
+          position_on_plane({v0[k], v1[k], v2[k]}, packet.hit.u[k], packet.hit.v[k]);
+      const Vec3f direction{packet.ray.dir_x[k], packet.ray.dir_y[k], packet.ray.dir_z[k]};
+      hits.position.set(first + k, position);
+      hits.normal.set(first + k, n);
+      hits.offset[first + k] = ray_offset(plane_magnitude(position, v0[k], n));
+      hits.light[first + k] = dot(n, direction) < 0 ? light[k] : light_behind[k];
+    }
   }
 };
-
-/// Positions and offsets of hits from `first` on; what is not flat gets numbers without a meaning.
-[[gnu::flatten]] void find_flat_points(const CornerLanes& corners, const RTCRayHit16& packet,
-                                       std::size_t first, HitLanes& hits) {
-  for (std::size_t k = 0; k < kPacket; ++k) {
-    const Vec3f v0 = corners.v0[k];
-    const Vec3f position =
-        position_on_plane({v0, corners.v1[k], corners.v2[k]}, packet.hit.u[k], packet.hit.v[k]);
-    hits.position.set(first + k, position);
-    hits.offset[first + k] = ray_offset(plane_magnitude(position, v0, hits.normal[first + k]));
-  }
-}
-
-}  // namespace
 
 RayPackets::RayPackets(const SceneGeometry& geometry) : geometry_(geometry) {
   if (geometry.primitive_count() <= kFewPrimitives) coherence_ = embree::Coherence::coherent;
@@ -83,20 +89,21 @@ RayPackets::RayPackets(const SceneGeometry& geometry) : geometry_(geometry) {
 
 void RayPackets::surface_hits(const RTCRayHit16& packet, const RayLanes& rays,
                               const std::uint32_t* order, std::size_t first, std::size_t count,
-                              HitLanes& hits) const {
-  CornerLanes flat;
+                              FlatLanes& flat, HitLanes& hits) const {
+  bool are_flat = true;
   for (std::size_t k = 0; k < count; ++k) {
     const unsigned kind = packet.hit.geomID[k], index = packet.hit.primID[k];
     hits.bsdf[first + k] = kNoHit;
-    if (!is_flat(kind)) continue;
+    if (!is_flat(kind)) {
+      are_flat = are_flat && kind == RTC_INVALID_GEOMETRY_ID;
+      continue;
+    }
     const Primitive& primitive = geometry_.primitives[kind][index];
-    flat.set(k, geometry_.corners(kind, index));
-    hits.normal.set(first + k, primitive.normal);
+    flat.set(k, primitive);
     hits.bsdf[first + k] = primitive.bsdf;
-    hits.light[first + k] = primitive.light_towards(primitive.normal, rays.direction[order[k]]);
   }
-  find_flat_points(flat, packet, first, hits);
-  for (std::size_t k = 0; k < count; ++k) {
+  flat.find_points(packet, first, hits);
+  for (std::size_t k = are_flat ? count : 0; k < count; ++k) {
     const unsigned kind = packet.hit.geomID[k];
     if (kind == RTC_INVALID_GEOMETRY_ID || is_flat(kind)) continue;
     const Ray ray{rays.origin[order[k]], rays.direction[order[k]]};
@@ -110,6 +117,7 @@ void RayPackets::intersect(const RayLanes& rays, const IndexLanes& order, std::s
                            HitLanes& hits) const {
   alignas(64) RTCRayHit16 packet;
   prepare(packet.ray);
+  FlatLanes flat{};
   for (std::size_t first = 0; first < count; first += kPacket) {
     const std::size_t size = std::min(kPacket, count - first);
     load(packet.ray, rays, &order[first]);
@@ -118,7 +126,7 @@ void RayPackets::intersect(const RayLanes& rays, const IndexLanes& order, std::s
     }
     for (unsigned& id : packet.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
     geometry_.intersect(ValidLanes(size).lanes, packet, coherence_);
-    surface_hits(packet, rays, &order[first], first, size, hits);
+    surface_hits(packet, rays, &order[first], first, size, flat, hits);
   }
 }
 

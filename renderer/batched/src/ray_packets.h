@@ -25,8 +25,10 @@ class RayPackets {
                 std::size_t count, Lanes<std::uint8_t>& blocked) const;
 
  private:
+  struct FlatLanes;
+
   void surface_hits(const RTCRayHit16& packet, const RayLanes& rays, const std::uint32_t* order,
-                    std::size_t first, std::size_t count, HitLanes& hits) const;
+                    std::size_t first, std::size_t count, FlatLanes& flat, HitLanes& hits) const;
 
   const SceneGeometry& geometry_;
   embree::Coherence coherence_ = embree::Coherence::none;

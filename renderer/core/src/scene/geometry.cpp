@@ -122,16 +122,20 @@ void SceneGeometry::build() {
   if (!exact.empty()) attach(kExact, make_exact_geometry(device_, exact));
   rtcCommitScene(scene_);
   check_device();
-  find_normals();
+  find_planes();
 }
 
-void SceneGeometry::find_normals() {
+void SceneGeometry::find_planes() {
   for (const unsigned kind : {kTriangles, kRectangles}) {
     for (std::size_t i = 0; i < primitives[kind].size(); ++i) {
-      const auto [v0, v1, v2] = corners(kind, i);
+      const bool is_triangle = kind == kTriangles;
+      const std::uint32_t* at = is_triangle ? triangles[i].data() : rectangles[i].data();
+      const Vec3f &v0 = vertices[at[0]], &v1 = vertices[at[1]],
+                  &v2 = vertices[at[is_triangle ? 2 : 3]];
       const Vec3d e1 = vec_cast<double>(v1) - vec_cast<double>(v0);
       const Vec3d e2 = vec_cast<double>(v2) - vec_cast<double>(v0);
       Primitive& primitive = primitives[kind][i];
+      primitive.corners = {v0, v1, v2};
       primitive.normal = vec_cast<float>(normalize(cross(e1, e2))) * primitive.facing;
     }
   }
@@ -144,7 +148,7 @@ SurfaceHit SceneGeometry::surface_hit(const Ray& ray, const PrimitiveHit& hit) c
       vec_cast<double>(ray.origin) + vec_cast<double>(ray.direction) * static_cast<double>(hit.t);
   SurfacePoint point;
   if (is_flat(hit.kind)) {
-    point = point_of_plane(corners(hit.kind, hit.index), hit.u, hit.v, primitive.normal);
+    point = point_of_plane(primitive.corners, hit.u, hit.v, primitive.normal);
   } else if (hit.kind == kSpheres) {
     point = point_of_sphere(spheres[hit.index], raw, primitive.facing);
   } else if (hit.kind == kExact) {

@@ -10,7 +10,7 @@ namespace plumbline::renderer {
 /// Vertices side by side, those of one BSDF and one light together.
 struct Shading {
   std::size_t count = 0;
-  IndexLanes bsdf, light, path;
+  IndexLanes light, path;
   Vec3Lanes position, normal, wo;  // wo is local
   Lanes<float> offset;
   RgbLanes throughput;

@@ -32,13 +32,20 @@ struct Disk {
 using Triangle = std::array<std::uint32_t, 3>;
 using Rectangle = std::array<std::uint32_t, 4>;
 
-/// What a primitive belongs to. `facing` is +1 where the front side is Embree's own, −1 where
-/// flipped.
-struct Primitive {
+/// Three corners of something flat: u runs from the first to the second, v from the first to the
+/// third.
+struct Corners {
+  Vec3f v0, v1, v2;
+};
+
+/// What a primitive belongs to, and all that is asked of a flat one where a ray meets it, in one
+/// line of the cache. `facing` is +1 where the front side is Embree's own, −1 where flipped.
+struct alignas(64) Primitive {
   std::uint32_t bsdf;
   std::uint32_t light, light_behind;  ///< what emits from the front side, and from the other
   float facing;
-  Vec3f normal{};  ///< of what is flat: unit, of the front side
+  Vec3f normal{};     ///< of what is flat: unit, of the front side
+  Corners corners{};  ///< of a triangle or rectangle
 
   /// What emits from the side that a ray with this direction hits.
   std::uint32_t light_towards(const Vec3f& front, const Vec3f& direction) const {
@@ -54,12 +61,6 @@ inline bool is_flat(unsigned kind) { return kind == kTriangles || kind == kRecta
 /// Embree counts a hit at 0: a ray from a point that lies on its plane without rounding, as in the
 /// middle of a scene, needs no offset and must not meet that plane.
 inline constexpr float kNearest = std::numeric_limits<float>::min();
-
-/// Three corners of something flat: u runs from the first to the second, v from the first to the
-/// third.
-struct Corners {
-  Vec3f v0, v1, v2;
-};
 
 /// Recomputed in double from the primitive: o + t·d has the rounding error of t, which far from the
 /// camera is larger than any offset could repair.
@@ -115,12 +116,6 @@ class SceneGeometry {
   /// How many surfaces rays are traced against.
   std::size_t primitive_count() const;
 
-  Corners corners(unsigned kind, std::size_t index) const {
-    const bool triangle = kind == kTriangles;
-    const std::uint32_t* i = triangle ? triangles[index].data() : rectangles[index].data();
-    return {vertices[i[0]], vertices[i[1]], vertices[i[triangle ? 2 : 3]]};
-  }
-
   /// The point of a primitive that a ray meets.
   SurfaceHit surface_hit(const Ray& ray, const PrimitiveHit& hit) const;
 
@@ -132,7 +127,7 @@ class SceneGeometry {
               std::size_t item_size, std::size_t item_count,
               const std::function<void(RTCGeometry)>& more);
   void check_device() const;
-  void find_normals();
+  void find_planes();
 
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
