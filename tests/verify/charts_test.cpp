@@ -10,6 +10,7 @@
 #include <plumbline/verify/detail/domain.h>
 
 #include "lattice.h"
+#include "turns.h"
 #include "vec3.h"
 
 /// Charts by what makes them ones: there and back, area by differences, steps of the length that is
@@ -49,6 +50,46 @@ TEST(Charts, LeadThereAndBack) {
       EXPECT_LT(d.chart().distance(x), 1e-12) << d.name();
     }
   }
+}
+
+long double exact_turns(double y, double x) {
+  const long double phi = std::atan2(static_cast<long double>(y), static_cast<long double>(x)) /
+                          (2 * std::numbers::pi_v<long double>);
+  return phi < 0 ? phi + 1 : phi;
+}
+
+TEST(Turns, AreThoseOfTheArcTangent) {
+  // Each octant's polynomial: at its ends, and dense between; far from unit length too.
+  for (int i = 0; i <= 100'000; ++i) {
+    const double phi = 2 * pi * i / 100'000, x = std::cos(phi), y = std::sin(phi);
+    ASSERT_NEAR(turns(y, x), static_cast<double>(exact_turns(y, x)), 2.3e-16) << i;
+  }
+  for (const double small : {1e-300, 1e-17, 1e-8, 0.41421356237309503, 0.41421356237309510, 1.0}) {
+    for (const double sx : {-1.0, 1.0}) {
+      for (const double sy : {-1.0, 1.0}) {
+        EXPECT_NEAR(turns(sy, sx * small), static_cast<double>(exact_turns(sy, sx * small)),
+                    2.3e-16);
+        EXPECT_NEAR(turns(sy * small, sx), static_cast<double>(exact_turns(sy * small, sx)),
+                    2.3e-16);
+      }
+    }
+  }
+}
+
+TEST(Turns, KeepTheDigitsOfASmallAngle) {
+  for (const double y : {1e-3, 1e-9, 1e-200}) {
+    EXPECT_NEAR(turns(y, 1) / static_cast<double>(exact_turns(y, 1)), 1, 5e-16) << y;
+  }
+}
+
+TEST(Turns, OfTheAxesAreQuarters) {
+  EXPECT_EQ(turns(0, 0), 0);
+  EXPECT_EQ(turns(0, 3), 0);
+  EXPECT_EQ(turns(3, 0), 0.25);
+  EXPECT_EQ(turns(0, -3), 0.5);
+  EXPECT_EQ(turns(-3, 0), 0.75);
+  EXPECT_EQ(turns(2, 2), 0.125);
+  EXPECT_EQ(turns(-1e-30, 1), 1);
 }
 
 TEST(Charts, HaveTheAreaElementOfTheirMap) {

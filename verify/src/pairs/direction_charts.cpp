@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "turns.h"
 #include "vec3.h"
 
 namespace plumbline::verify {
@@ -11,11 +12,6 @@ namespace plumbline::verify {
 namespace {
 
 using std::numbers::pi;
-
-double turns(double y, double x) {
-  const double phi = std::atan2(y, x) / (2 * pi);
-  return phi < 0 ? phi + 1 : phi;
-}
 
 /// Charts of unit vectors.
 class SphereChart : public Chart {
@@ -30,7 +26,7 @@ class SphereChart : public Chart {
     }
     return normalized(moved);
   }
-  double distance(const Vec3& w) const override { return std::abs(length(w) - 1); }
+  double distance(const Vec3& w) const override { return std::abs(std::sqrt(dot(w, w)) - 1); }
 };
 
 /// Square = ((1 − z)/2, φ/2π) on the sphere, and the same stretched on a hemisphere.

@@ -8,6 +8,7 @@
 #include <plumbline/verify/detail/domain.h>
 
 #include "pairs/direction_charts.h"
+#include "turns.h"
 #include "vec3.h"
 
 namespace plumbline::verify {
@@ -122,8 +123,7 @@ class DiskChart final : public Chart {
   }
   Point2 to_square(const Vec3& x) const override {
     const double r2 = (x[0] * x[0] + x[1] * x[1]) / (radius_ * radius_);
-    const double phi = std::atan2(x[1], x[0]) / (2 * pi);
-    return {std::min(r2, 1.0), phi < 0 ? phi + 1 : phi};
+    return {std::min(r2, 1.0), turns(x[1], x[0])};
   }
   double element(const Point2&) const override { return pi * radius_ * radius_; }
   Vec3 near(const Vec3& x, double distance, double angle) const override {
