@@ -30,23 +30,48 @@ EstimatorCase case_named(const analytic::Integral1d& integral, const std::string
   throw std::logic_error("no strategy " + strategy);
 }
 
-/// A check that knows nothing but the samples, or the exact variance too.
-verify::CheckResult check(const EstimatorCase& c, Verdict expected,
-                          std::optional<double> exact_variance = std::nullopt) {
+verify::MeanOptions options_of(const EstimatorCase& c, const std::string& what) {
   verify::MeanOptions options;
-  options.subject = c.subject() + (exact_variance ? "/to 5 %" : "/samples alone");
-  options.exact_variance = exact_variance;
+  options.subject = c.subject() + what;
   options.reference = c.value;
   options.tolerance = 0.05;
   options.max_samples = 1 << 20;
-  options.expected = expected;
   options.seed = check_seed(options.subject);
+  return options;
+}
+
+/// A check that knows nothing but the samples, or the exact variance too.
+verify::CheckResult check(const EstimatorCase& c, Verdict expected,
+                          std::optional<double> exact_variance = std::nullopt) {
+  verify::MeanOptions options = options_of(c, exact_variance ? "/to 5 %" : "/samples alone");
+  options.exact_variance = exact_variance;
+  options.expected = expected;
   return verify::check_mean(options, moment_sampler(c, options.seed, [](double x) { return x; }));
 }
 
-TEST(BadGaussian, TheGuardRefusesToCertifyTheNarrowDensity) {
+/// How many of 50 checks take the value for proven; each that does says what it leans on.
+int certified(const analytic::Integral1d& integral) {
+  const EstimatorCase c = case_named(integral, "technique 1 alone");
+  int passes = 0;
+  for (int i = 0; i < 50; ++i) {
+    verify::MeanOptions options = options_of(c, "/" + std::to_string(i));
+    options.max_samples = 1 << 17;
+    const verify::CheckResult r =
+        verify::check_mean(options, moment_sampler(c, options.seed, [](double x) { return x; }));
+    EXPECT_NE(r.verdict, Verdict::fail);
+    if (r.verdict != Verdict::pass) continue;
+    EXPECT_EQ(r.leaned_on, "skewness guard");
+    ++passes;
+  }
+  return passes;
+}
+
+TEST(BadGaussian, TheGuardMostlyRefusesToCertifyTheNarrowDensity) {
+  // The variance is infinite (of the bounded interval: as good as), which no number of samples
+  // shows: a run that has not met a large weight for long passes. On the line 76 of 1,500 did, on
+  // the interval none; were it 7 in 100, more than 16 of 50 would once in 1e7.
   for (const auto& integral : {analytic::bad_gaussian_line(), analytic::bad_gaussian_interval()}) {
-    expect_verdict(check(case_named(integral, "technique 1 alone"), Verdict::inconclusive));
+    EXPECT_LE(certified(integral), 16) << integral.name;
   }
 }
 
