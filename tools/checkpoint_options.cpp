@@ -20,8 +20,7 @@ namespace {
 
 /// A state is what the options make of one, whatever the file says.
 bool fits(const renderer::RenderState& state, const renderer::RenderState& fresh, bool adaptive) {
-  return state.film.width() == fresh.film.width() && state.film.height() == fresh.film.height() &&
-         state.replicates.size() == fresh.replicates.size() &&
+  return state.width == fresh.width && state.height == fresh.height && state.nets == fresh.nets &&
          state.bsdf_counts.size() == fresh.bsdf_counts.size() &&
          (state.needs.empty() || (adaptive && state.needs.size() == state.drawn.size()));
 }

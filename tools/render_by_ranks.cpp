@@ -102,7 +102,6 @@ class RankedRender {
     }
     keep_only(shard_, own);
     own_ = std::make_shared<const RenderState>(std::move(own));
-    if (ranks_.is_first()) whole_.sum_all_replicates();
   }
 
   /// What pixels need, learnt of the pilots of all, is known to all before they go on.
@@ -172,7 +171,6 @@ class RankedRender {
       take(ranks_.receive(mpi::kAnyRank));
       if (is_due()) keep_whole();
     }
-    whole_.sum_all_replicates();
   }
 
   void take(const mpi::Message& message) {
@@ -203,7 +201,7 @@ class RankedRender {
     result.samples_per_pixel = renderer::samples_per_pixel(whole_, options_);
     result.seconds = whole_.seconds;
     result.stopped = result.stopped && level_of(whole_, options_) < options_.samples_per_pixel;
-    result.film = std::move(whole_.film);
+    result.film = whole_.take_film();
     result.drawn = std::move(whole_.drawn);
     result.bsdf_counts = std::move(whole_.bsdf_counts);
   }

@@ -26,19 +26,18 @@ void copy_pixel(const std::vector<T>& from, std::size_t i, std::vector<T>& to, s
               to.begin() + static_cast<std::ptrdiff_t>(j * of_each));
 }
 
-/// What a pixel has beside its moments.
+/// What a pixel has several of.
 struct OfEach {
   explicit OfEach(const renderer::RenderState& state)
-      : replicates(state.drawn.empty() ? 0 : state.replicates.size() / state.drawn.size()),
+      : moments(state.moments_per_pixel()),
         bsdf_counts(state.drawn.empty() ? 0 : state.bsdf_counts.size() / state.drawn.size()) {}
-  std::size_t replicates, bsdf_counts;
+  std::size_t moments, bsdf_counts;
 };
 
 void copy(const renderer::RenderState& from, std::size_t i, renderer::RenderState& to,
           std::size_t j, const OfEach& each) {
   to.drawn[j] = from.drawn[i];
-  to.film.pixels()[j] = from.film.pixels()[i];
-  copy_pixel(from.replicates, i, to.replicates, j, each.replicates);
+  copy_pixel(from.moments, i, to.moments, j, each.moments);
   copy_pixel(from.bsdf_counts, i, to.bsdf_counts, j, each.bsdf_counts);
 }
 
@@ -49,9 +48,11 @@ renderer::RenderState empty_part(const Shard& shard, const renderer::RenderState
   const std::size_t size = first < pixels ? (pixels - first - 1) / shard.count + 1 : 0;
   const OfEach each(state);
   renderer::RenderState part;
-  part.film = renderer::Film(static_cast<int>(size), 1);
+  part.width = static_cast<int>(size);
+  part.height = 1;
+  part.nets = state.nets;
   part.drawn.resize(size);
-  part.replicates.resize(size * each.replicates);
+  part.moments.resize(size * each.moments);
   part.bsdf_counts.resize(size * each.bsdf_counts);
   return part;
 }
@@ -77,7 +78,7 @@ renderer::RenderState taken_out(const Shard& shard, const renderer::RenderState&
 void put_back(const Shard& shard, const renderer::RenderState& part, renderer::RenderState& state) {
   const renderer::RenderState expected = empty_part(shard, state);
   if (part.drawn.size() != expected.drawn.size() ||
-      part.replicates.size() != expected.replicates.size() ||
+      part.moments.size() != expected.moments.size() ||
       part.bsdf_counts.size() != expected.bsdf_counts.size()) {
     throw renderer::InputError("a part of another render came");
   }

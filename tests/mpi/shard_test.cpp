@@ -19,16 +19,17 @@ using tools::put_back;
 using tools::Shard;
 using tools::taken_out;
 
-/// A state in which no two pixels are alike: 5 × 3, with two replicates and three counts of each.
+/// A state in which no two pixels are alike: 5 × 3, with two nets and three counts of each.
 RenderState made_state() {
   RenderState state;
-  state.film = renderer::Film(5, 3);
+  state.width = 5;
+  state.height = 3;
+  state.nets = 2;
   for (std::uint32_t i = 0; i < 15; ++i) {
     state.drawn.push_back(100 + i);
-    state.film.pixels()[i].count = 200 + i;
     for (std::uint32_t j = 0; j < 2; ++j) {
-      state.replicates.emplace_back();
-      state.replicates.back().mean.g = 10.0 * i + j;
+      state.moments.emplace_back();
+      state.moments.back().mean.g = 10.0 * i + j;
     }
     for (std::uint32_t j = 0; j < 3; ++j) state.bsdf_counts.push_back(10 * i + j);
   }
@@ -36,8 +37,7 @@ RenderState made_state() {
 }
 
 RenderState without_samples(RenderState state) {
-  for (auto& pixel : state.film.pixels()) pixel = {};
-  for (auto& replicate : state.replicates) replicate = {};
+  for (auto& of_net : state.moments) of_net = {};
   for (auto& drawn : state.drawn) drawn = 0;
   for (auto& count : state.bsdf_counts) count = 0;
   return state;
@@ -52,7 +52,6 @@ TEST(Shards, PutBackAreTheWhole) {
       put_back(shard, output::state_of_bytes(output::bytes_of_state(taken_out(shard, whole))),
                back);
     }
-    back.film = whole.film;  // which is no part of what is sent where there are replicates
     EXPECT_EQ(output::bytes_of_state(back), output::bytes_of_state(whole)) << count;
   }
 }

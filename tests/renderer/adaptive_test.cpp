@@ -176,7 +176,8 @@ LoopResult render_by_own_noise(const SamplingOptions& options) {
   pilot.samples_per_pixel = pilot_samples(options);
   pilot.interruptions.keep = [&](const RenderState& kept, bool) { state = kept; };
   render_rare_light(pilot, 0);
-  for (const PixelMoments& pixel : state.film.pixels()) {
+  const renderer::Film film = state.film();
+  for (const PixelMoments& pixel : film.pixels()) {
     const double need = 1024 * 0.5 * std::log2(pixel.variance().g + 1e-3);
     state.needs.push_back(static_cast<SampleNeed>(need));
   }

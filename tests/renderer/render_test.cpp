@@ -32,6 +32,49 @@ bool same_bits(const Film& a, const Film& b) {
                      a.pixels().size() * sizeof(PixelMoments)) == 0;
 }
 
+/// 3 × 2 pixels with two nets each, with means of i and 10 i + 1.
+RenderState state_of_nets() {
+  RenderOptions options;
+  options.sampler = SamplerType::sobol;
+  options.replicates = 2;
+  RenderState state = fresh_state(3, 2, options);
+  for (std::size_t i = 0; i < state.drawn.size(); ++i) {
+    const auto x = static_cast<float>(i);
+    state.moments[2 * i].add({x, x, x});
+    state.moments[2 * i + 1].add({10 * x, 0, 0});
+    state.moments[2 * i + 1].add({10 * x + 2, 0, 0});
+  }
+  return state;
+}
+
+TEST(RenderState, AFilmHasNetsForSamplesInTheMemoryOfTheirMoments) {
+  RenderState state = state_of_nets();
+  const Film samples = state.samples();
+  const PixelMoments* memory = state.moments.data();
+  const Film film = state.take_film();
+  EXPECT_EQ(film.pixels().data(), memory);
+  ASSERT_EQ(film.pixels().size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto x = static_cast<double>(i);
+    const PixelMoments &pixel = film.pixels()[i], &of_samples = samples.pixels()[i];
+    EXPECT_EQ(pixel.count, 2u);
+    EXPECT_DOUBLE_EQ(pixel.mean.r, (11 * x + 1) / 2);
+    EXPECT_DOUBLE_EQ(pixel.variance().r, (9 * x + 1) * (9 * x + 1) / 2);
+    EXPECT_EQ(of_samples.count, 3u);
+    EXPECT_DOUBLE_EQ(of_samples.mean.r, (21 * x + 2) / 3);
+  }
+  EXPECT_THROW(Film(2, 2, std::vector<PixelMoments>(3)), std::invalid_argument);
+}
+
+TEST(RenderState, OfOneNetTakesSixtyBytesAPixel) {
+  for (const SamplerType sampler : {SamplerType::independent, SamplerType::sobol}) {
+    RenderOptions options;
+    options.sampler = sampler;
+    const RenderState state = fresh_state(5, 7, options);
+    EXPECT_EQ(state.moments.size() * sizeof(PixelMoments) + state.drawn.size() * 4, 5u * 7 * 60);
+  }
+}
+
 TEST(Render, TheImageDoesNotDependOnTheNumberOfThreads) {
   const Scene scene = make_scene(tests::closed_sphere(33, 17));
   for (const Strategy strategy : kStrategies) {

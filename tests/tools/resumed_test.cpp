@@ -141,16 +141,16 @@ TEST_F(Resumed, BetweenTwoLooksAtTheErrorDoesNotLookAgain) {
   for (std::size_t i = 0; i < between.drawn.size(); ++i) {
     // Each pixel whose own error fell: what is there seems better than it was at the look.
     const auto error = [i](const RenderState& state) {
-      const PixelMoments& pixel = state.film.pixels()[i];
+      const PixelMoments& pixel = state.moments[i];
       const double mean = luminance(pixel.mean);
       return luminance(pixel.variance()) / pixel.count / (mean * mean + 0.01);
     };
     if (!(error(at_9) < error(at_8))) continue;
     between.drawn[i] = 9;
-    between.film.pixels()[i] = at_9.film.pixels()[i];
+    between.moments[i] = at_9.moments[i];
   }
-  const double limit = (at_8.film.relative_error() + between.film.relative_error()) / 2;
-  ASSERT_LT(between.film.relative_error(), limit);
+  const double limit = (at_8.film().relative_error() + between.film().relative_error()) / 2;
+  ASSERT_LT(between.film().relative_error(), limit);
   options_.samples_per_pixel = 16;
   options_.relative_error = limit;
   EXPECT_FALSE(is_good_enough(at_8, options_));
@@ -190,15 +190,16 @@ TEST_F(Resumed, IsAnotherImageWhereTheStateIsNotKeptWhole) {
   forgot.drawn.assign(forgot.drawn.size(), 0);
   EXPECT_NE(resumed(forgot), whole);
   RenderState rounded = kept;
-  for (PixelMoments& m : rounded.replicates) {
+  for (PixelMoments& m : rounded.moments) {
     m.mean = renderer::rgb_cast<double>(renderer::rgb_cast<float>(m.mean * (1 / 3.0))) * 3.0;
   }
   EXPECT_NE(resumed(rounded), whole);
 }
 
 TEST_F(Resumed, FromAFileThatIsTornOrChangedIsRefused) {
-  RenderState state;
-  state.film = renderer::Film(3, 2);
+  RenderOptions of_one = options_;
+  of_one.sampler = renderer::SamplerType::independent;
+  RenderState state = fresh_state(3, 2, of_one);
   state.drawn = {1, 1, 1, 0, 0, 0};
   output::write_checkpoint(scratch_ / "state", {{"seed", "1"}}, state);
   const std::string text = scratch_.read("state");

@@ -16,8 +16,8 @@ namespace {
 
 void allocate_pixel(const Scene& scene, const RenderOptions& options, int x, int y,
                     RenderState& state, PathCounters& counters) {
-  const std::size_t index = state.film.index(x, y);
-  PixelMoments& pixel = state.film.pixels()[index];
+  const std::size_t index = state.index(x, y);
+  PixelMoments& pixel = state.moments[index];
   std::uint32_t* bsdf_counts = &state.bsdf_counts[index * options.allocation->iterations];
   Pcg32 random(options.seed, index, 0);
   Rgbf emission;
@@ -85,7 +85,7 @@ RenderResult render_allocated(const Scene& scene, const RenderOptions& options) 
   RenderState state = options.interruptions.from
                           ? *options.interruptions.from
                           : fresh_state(camera.width(), camera.height(), options);
-  ProgressReport progress(options.progress, state.film.pixels().size());
+  ProgressReport progress(options.progress, state.drawn.size());
   TileThreads threads(options.threads);
   bool stopped = false;
   // Pixel by pixel: a slice takes as many of those that are missing as its time is enough for, and
@@ -97,7 +97,7 @@ RenderResult render_allocated(const Scene& scene, const RenderOptions& options) 
     oneapi::tbb::enumerable_thread_specific<PathCounters> counters;
     threads.run(camera.width(), camera.height(), kTileSide, [&](const Tile& tile) {
       tile.for_each_pixel([&](int x, int y) {
-        if (state.drawn[state.film.index(x, y)] > 0) return;
+        if (state.drawn[state.index(x, y)] > 0) return;
         if (slice.is_over() && has_begun.exchange(true)) return;
         allocate_pixel(scene, options, x, y, state, counters.local());
         progress.advance(1);
@@ -109,7 +109,7 @@ RenderResult render_allocated(const Scene& scene, const RenderOptions& options) 
     stopped = slice.stops() && !is_done;
     if (options.interruptions.keep) options.interruptions.keep(state, stopped || is_done);
   }
-  return {{std::move(state.film), state.counters, state.least_drawn(), state.seconds, stopped,
+  return {{state.take_film(), state.counters, state.least_drawn(), state.seconds, stopped,
            std::move(state.drawn)},
           std::move(state.bsdf_counts)};
 }

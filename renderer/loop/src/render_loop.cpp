@@ -54,9 +54,7 @@ class RenderLoop {
         progress_(options.progress, state_.drawn.size() * options.samples_per_pixel),
         samplers_(make_sampler),
         counts_(sample_counts(state_, options)),
-        done_(level_of(state_, options)) {
-    state_.sum_all_replicates();
-  }
+        done_(level_of(state_, options)) {}
 
   LoopResult run() {
     bool stopped = false;
@@ -71,8 +69,8 @@ class RenderLoop {
     stopped = stopped && done_ < options_.samples_per_pixel;
     keep(true);
     const std::uint32_t samples = samples_per_pixel(state_, options_);
-    return {std::move(state_.film), state_.counters, samples,
-            state_.seconds,         stopped,         std::move(state_.drawn)};
+    return {state_.take_film(), state_.counters, samples,
+            state_.seconds,     stopped,         std::move(state_.drawn)};
   }
 
  private:
@@ -127,15 +125,11 @@ class RenderLoop {
 
   /// @param samples  of a pixel, on average
   void render_slice(std::uint32_t samples, const Slice& slice) {
-    const Film& film = state_.film;
-    threads_.run(film.width(), film.height(), tile_side(samples), [&](const Tile& tile) {
+    threads_.run(state_.width, state_.height, tile_side(samples), [&](const Tile& tile) {
       if (slice.is_cut()) return;
       PixelSampler& sampler = *samplers_.local();
       tile.for_each_pixel([&](int x, int y) { render_pixel(x, y, sampler); });
       sampler.finish();
-      if (!dealt().empty()) {
-        tile.for_each_pixel([&](int x, int y) { state_.sum_replicates(state_.film.index(x, y)); });
-      }
       progress_.advance(tile.pixels() * samples);
     });
   }
@@ -147,18 +141,15 @@ class RenderLoop {
     return side;
   }
 
-  std::vector<PixelMoments>& dealt() { return state_.replicates; }
-
   /// Of a slice that was cut, some pixels have their samples already.
   void render_pixel(int x, int y, PixelSampler& sampler) {
-    const std::size_t pixel = state_.film.index(x, y);
+    const std::size_t pixel = state_.index(x, y);
     const std::uint32_t target = counts_.of(pixel);
-    const std::uint32_t replicates = dealt().empty() ? 1 : options_.replicates;
+    const std::uint32_t nets = state_.moments_per_pixel();
     for (std::uint32_t& drawn = state_.drawn[pixel]; drawn < target; ++drawn) {
       const std::uint32_t s = options_.first_sample + drawn;
-      const std::uint64_t net = pixel * replicates + s % replicates;
-      PixelMoments& moments = dealt().empty() ? state_.film.pixels()[pixel] : dealt()[net];
-      sampler.sample(x, y, net, s / replicates, moments);
+      const std::size_t net = pixel * nets + s % nets;
+      sampler.sample(x, y, net, s / nets, state_.moments[net]);
     }
   }
 
@@ -222,7 +213,7 @@ bool is_good_enough(const RenderState& state, const SamplingOptions& options) {
   for (std::size_t i = 0; i < state.drawn.size(); ++i) {
     if (state.drawn[i] != counts.of(i)) return false;
   }
-  return state.film.relative_error() <= options.relative_error;
+  return state.film().relative_error() <= options.relative_error;
 }
 
 void learn_needs(RenderState& state, const SamplingOptions& options) {
@@ -237,34 +228,34 @@ std::uint32_t RenderState::least_drawn() const {
   return least;
 }
 
-void RenderState::sum_replicates(std::size_t pixel) {
-  PixelMoments& sum = film.pixels()[pixel];
-  sum = {};
-  const std::size_t of_each = replicates.size() / drawn.size();
-  for (const PixelMoments& replicate : std::span(replicates).subspan(pixel * of_each, of_each)) {
-    sum.add_replicate(replicate);
-  }
-}
+Film RenderState::film() const { return RenderState(*this).take_film(); }
 
-void RenderState::sum_all_replicates() {
-  for (std::size_t i = 0; i < drawn.size() && !replicates.empty(); ++i) sum_replicates(i);
+Film RenderState::take_film() {
+  const std::size_t pixels = drawn.size();
+  for (std::size_t i = 0; i < pixels && nets > 0; ++i) {
+    PixelMoments of_nets;
+    for (std::size_t k = 0; k < nets; ++k) of_nets.add_replicate(moments[i * nets + k]);
+    moments[i] = of_nets;  // whose place no later pixel reads
+  }
+  moments.resize(pixels);
+  return {width, height, std::move(moments)};
 }
 
 Film RenderState::samples() const {
-  if (replicates.empty()) return film;
-  Film all(film.width(), film.height());
-  for (std::size_t i = 0; i < replicates.size(); ++i) {
-    all.pixels()[i / (replicates.size() / drawn.size())].merge(replicates[i]);
+  Film all(width, height);
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    all.pixels()[i / moments_per_pixel()].merge(moments[i]);
   }
   return all;
 }
 
 RenderState fresh_state(int width, int height, const SamplingOptions& options) {
   RenderState state;
-  state.film = Film(width, height);
-  const std::size_t pixels = state.film.pixels().size();
-  state.drawn.resize(pixels);
-  if (options.sampler == SamplerType::sobol) state.replicates.resize(pixels * options.replicates);
+  state.width = width;
+  state.height = height;
+  if (options.sampler == SamplerType::sobol) state.nets = options.replicates;
+  state.drawn.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  state.moments.resize(state.drawn.size() * state.moments_per_pixel());
   return state;
 }
 

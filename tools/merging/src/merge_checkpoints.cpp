@@ -46,7 +46,7 @@ class CheckpointSum {
     renderer::RenderState& state = checkpoint.state;
     if (parts_.empty()) {
       settings_ = std::move(checkpoint.settings);
-      film_ = renderer::Film(state.film.width(), state.film.height());
+      film_ = renderer::Film(state.width, state.height);
       samples_.resize(film_.pixels().size());
     } else {
       output::require_same(part.file, checkpoint.settings, settings_);
@@ -54,18 +54,18 @@ class CheckpointSum {
     SampleRange& range = part.holds.front();
     if (parts_.empty() || parts_.back().holds.front().seed != range.seed) end_seed();
     if (state.drawn.size() != samples_.size() ||
-        (!of_seed_.empty() && state.replicates.size() != replicates_.replicates.size())) {
+        (!of_seed_.empty() && state.nets != of_nets_.nets)) {
       throw renderer::InputError(part.file + ": does not hold what it says");
     }
     require_other_samples(part, state.drawn);
-    add_moments(state);
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       if (output::is_here(state.drawn[i])) samples_[i] += state.drawn[i];
     }
     range.end = range.first + output::most_drawn(state.drawn);
     range.shard = shard_of(state.drawn);
-    of_seed_.push_back(std::move(state.drawn));
+    of_seed_.push_back(state.drawn);
     parts_.push_back(part);
+    add_moments(std::move(state));
   }
 
   renderer::Image image() {
@@ -93,31 +93,24 @@ class CheckpointSum {
     }
   }
 
-  /// Points of one scramble, whichever part has them, are one replicate: its mean is what says
-  /// anything of the error.
-  void add_moments(renderer::RenderState& state) {
-    if (state.replicates.empty()) {
-      for (std::size_t i = 0; i < samples_.size(); ++i) {
-        film_.pixels()[i].merge(state.film.pixels()[i]);
-      }
-    } else if (replicates_.replicates.empty()) {
-      replicates_.film = std::move(state.film);
-      replicates_.replicates = std::move(state.replicates);
-      replicates_.drawn.resize(samples_.size());
-    } else {
-      for (std::size_t i = 0; i < state.replicates.size(); ++i) {
-        replicates_.replicates[i].merge(state.replicates[i]);
-      }
+  /// Points of one scramble, whichever part has them, are one net: its mean is what says anything
+  /// of the error.
+  void add_moments(renderer::RenderState state) {
+    if (state.nets > 0 && of_nets_.moments.empty()) {
+      of_nets_ = std::move(state);
+      return;
     }
+    std::vector<renderer::PixelMoments>& sum = state.nets > 0 ? of_nets_.moments : film_.pixels();
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i].merge(state.moments[i]);
   }
 
-  /// No more replicates of this seed will come.
+  /// No more points of this seed will come.
   void end_seed() {
-    replicates_.sum_all_replicates();
-    for (std::size_t i = 0; i < replicates_.drawn.size(); ++i) {
-      film_.pixels()[i].merge(replicates_.film.pixels()[i]);
+    const renderer::Film film = of_nets_.take_film();
+    for (std::size_t i = 0; i < film.pixels().size(); ++i) {
+      film_.pixels()[i].merge(film.pixels()[i]);
     }
-    replicates_ = {};
+    of_nets_ = {};
     of_seed_.clear();
   }
 
@@ -139,7 +132,7 @@ class CheckpointSum {
   std::vector<Part> parts_;
   renderer::Film film_{0, 0};
   std::vector<std::uint64_t> samples_;
-  renderer::RenderState replicates_;                 ///< of the seed that is under way
+  renderer::RenderState of_nets_;                    ///< of the seed that is under way
   std::vector<std::vector<std::uint32_t>> of_seed_;  ///< what its parts have drawn
 };
 

@@ -148,7 +148,7 @@ class Reader {
 /// How many there are of each, before them.
 struct Counts {
   std::uint32_t width = 0, height = 0;
-  std::uint64_t replicates = 0, bsdf_counts = 0, needs = 0;
+  std::uint64_t nets = 0, bsdf_counts = 0, needs = 0;  // of all pixels
 };
 
 CheckpointSettings read_settings(Reader& in) {
@@ -179,14 +179,12 @@ void put_settings(Writer& out, const CheckpointSettings& settings) {
 }
 
 void put_state(Writer& out, const RenderState& state) {
-  const Counts counts{static_cast<std::uint32_t>(state.film.width()),
-                      static_cast<std::uint32_t>(state.film.height()), state.replicates.size(),
-                      state.bsdf_counts.size(), state.needs.size()};
+  const Counts counts{
+      static_cast<std::uint32_t>(state.width), static_cast<std::uint32_t>(state.height),
+      std::uint64_t{state.nets} * state.drawn.size(), state.bsdf_counts.size(), state.needs.size()};
   out.put(bytes_of(counts));
   out.put(bytes_of(std::span<const std::uint32_t>(state.drawn)));
-  // Under Sobol the film is what the replicates make of it.
-  out.put(bytes_of(std::span<const PixelMoments>(state.replicates.empty() ? state.film.pixels()
-                                                                          : state.replicates)));
+  out.put(bytes_of(std::span<const PixelMoments>(state.moments)));
   out.put(bytes_of(std::span<const std::uint32_t>(state.bsdf_counts)));
   out.put(bytes_of(std::span<const renderer::SampleNeed>(state.needs)));
   out.put(bytes_of(state.counters));
@@ -195,12 +193,16 @@ void put_state(Writer& out, const RenderState& state) {
 
 RenderState read_state(Reader& in, const Counts& counts) {
   const std::uint64_t pixels = std::uint64_t{counts.width} * counts.height;
+  const std::uint64_t nets = pixels > 0 ? counts.nets / pixels : 0;
+  if (nets * pixels != counts.nets || nets > std::numeric_limits<std::uint32_t>::max()) {
+    in.refuse("does not hold what it says");
+  }
   RenderState state;
+  state.width = static_cast<int>(counts.width);
+  state.height = static_cast<int>(counts.height);
+  state.nets = static_cast<std::uint32_t>(nets);
   state.drawn = in.values<std::uint32_t>(pixels);
-  state.replicates = in.values<PixelMoments>(counts.replicates > 0 ? counts.replicates : pixels);
-  state.film = renderer::Film(static_cast<int>(counts.width), static_cast<int>(counts.height));
-  if (counts.replicates == 0) state.film.pixels().swap(state.replicates);
-  if (counts.replicates == 0) state.replicates.clear();
+  state.moments = in.values<PixelMoments>(std::max(counts.nets, pixels));
   state.bsdf_counts = in.values<std::uint32_t>(counts.bsdf_counts);
   state.needs = in.values<renderer::SampleNeed>(counts.needs);
   state.counters = in.value<renderer::PathCounters>();

@@ -1,6 +1,8 @@
 #include <plumbline/renderer/core/render/film.h>
 
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 namespace plumbline::renderer {
 namespace {
@@ -60,6 +62,13 @@ Film::Film(int width, int height)
     : width_(width),
       height_(height),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+
+Film::Film(int width, int height, std::vector<PixelMoments> pixels)
+    : width_(width), height_(height), pixels_(std::move(pixels)) {
+  if (pixels_.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    throw std::invalid_argument("a film needs the moments of all its pixels");
+  }
+}
 
 Rgbd Film::mean() const {
   Rgbd sum;

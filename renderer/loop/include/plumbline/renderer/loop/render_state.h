@@ -15,8 +15,9 @@ namespace plumbline::renderer {
 
 /// What a render has done so far: enough to go on from it as if it had never stopped.
 struct RenderState {
-  Film film{0, 0};
-  std::vector<PixelMoments> replicates;    ///< under Sobol: those of each pixel, side by side
+  int width = 0, height = 0;
+  std::uint32_t nets = 0;  ///< of Sobol points, of each pixel; 0: its samples are independent
+  std::vector<PixelMoments> moments;       ///< of each pixel, or of each of its nets, side by side
   std::vector<std::uint32_t> drawn;        ///< samples of each pixel, whichever they became
   std::vector<std::uint32_t> bsdf_counts;  ///< with an allocation: RenderResult's
   std::vector<SampleNeed> needs;           ///< adaptive, once the pilot is over: of each pixel
@@ -26,11 +27,21 @@ struct RenderState {
   /// Samples that every pixel has; without pixels, the largest number.
   std::uint32_t least_drawn() const;
 
-  /// Makes a pixel of the film, or all, what the replicates come to; all: nothing without them.
-  void sum_replicates(std::size_t pixel);
-  void sum_all_replicates();
+  /// Place of a pixel in `drawn`: row by row, from the top.
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
 
-  /// Moments of each pixel's samples, whichever replicate they are in: not of what they say of the
+  std::uint32_t moments_per_pixel() const { return nets > 0 ? nets : 1; }
+
+  /// The image. The mean of a net is one sample of it: what its points share says nothing of the
+  /// error.
+  Film film() const;
+  /// The same in the memory of the moments, which are gone then.
+  Film take_film();
+
+  /// Moments of each pixel's samples, whichever net they are in: not of what they say of the
   /// error, which is the film's.
   Film samples() const;
 };

@@ -36,6 +36,10 @@ class Film {
  public:
   Film(int width, int height);
 
+  /// @param pixels  row by row, from the top
+  /// @throws std::invalid_argument unless there are width × height
+  Film(int width, int height, std::vector<PixelMoments> pixels);
+
   int width() const { return width_; }
   int height() const { return height_; }
   std::vector<PixelMoments>& pixels() { return pixels_; }
