@@ -40,13 +40,17 @@ verify::MeanOptions options_of(const EstimatorCase& c, const std::string& what) 
   return options;
 }
 
+verify::CheckResult check(const EstimatorCase& c, const verify::MeanOptions& options) {
+  return verify::check_mean(options, moment_sampler(c, options.seed, [](double x) { return x; }));
+}
+
 /// A check that knows nothing but the samples, or the exact variance too.
 verify::CheckResult check(const EstimatorCase& c, Verdict expected,
                           std::optional<double> exact_variance = std::nullopt) {
   verify::MeanOptions options = options_of(c, exact_variance ? "/to 5 %" : "/samples alone");
   options.exact_variance = exact_variance;
   options.expected = expected;
-  return verify::check_mean(options, moment_sampler(c, options.seed, [](double x) { return x; }));
+  return check(c, options);
 }
 
 /// How many of 50 checks take the value for proven; each that does says what it leans on.
@@ -56,8 +60,7 @@ int certified(const analytic::Integral1d& integral) {
   for (int i = 0; i < 50; ++i) {
     verify::MeanOptions options = options_of(c, "/" + std::to_string(i));
     options.max_samples = 1 << 17;
-    const verify::CheckResult r =
-        verify::check_mean(options, moment_sampler(c, options.seed, [](double x) { return x; }));
+    const verify::CheckResult r = check(c, options);
     EXPECT_NE(r.verdict, Verdict::fail);
     if (r.verdict != Verdict::pass) continue;
     EXPECT_EQ(r.leaned_on, "skewness guard");

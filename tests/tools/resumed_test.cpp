@@ -197,9 +197,7 @@ TEST_F(Resumed, IsAnotherImageWhereTheStateIsNotKeptWhole) {
 }
 
 TEST_F(Resumed, FromAFileThatIsTornOrChangedIsRefused) {
-  RenderOptions of_one = options_;
-  of_one.sampler = renderer::SamplerType::independent;
-  RenderState state = fresh_state(3, 2, of_one);
+  RenderState state = fresh_state(3, 2, options_);
   state.drawn = {1, 1, 1, 0, 0, 0};
   output::write_checkpoint(scratch_ / "state", {{"seed", "1"}}, state);
   const std::string text = scratch_.read("state");

@@ -59,7 +59,7 @@ long double exact_turns(double y, double x) {
 }
 
 TEST(Turns, AreThoseOfTheArcTangent) {
-  // Each octant's polynomial: at its ends, and dense between; far from unit length too.
+  // Each octant's polynomial: at its ends, and dense between.
   for (int i = 0; i <= 100'000; ++i) {
     const double phi = 2 * pi * i / 100'000, x = std::cos(phi), y = std::sin(phi);
     ASSERT_NEAR(turns(y, x), static_cast<double>(exact_turns(y, x)), 2.3e-16) << i;

@@ -16,7 +16,7 @@ namespace {
 
 void allocate_pixel(const Scene& scene, const RenderOptions& options, int x, int y,
                     RenderState& state, PathCounters& counters) {
-  const std::size_t index = state.index(x, y);
+  const std::size_t index = pixel_index(state.width, x, y);
   PixelMoments& pixel = state.moments[index];
   std::uint32_t* bsdf_counts = &state.bsdf_counts[index * options.allocation->iterations];
   Pcg32 random(options.seed, index, 0);
@@ -97,7 +97,7 @@ RenderResult render_allocated(const Scene& scene, const RenderOptions& options) 
     oneapi::tbb::enumerable_thread_specific<PathCounters> counters;
     threads.run(camera.width(), camera.height(), kTileSide, [&](const Tile& tile) {
       tile.for_each_pixel([&](int x, int y) {
-        if (state.drawn[state.index(x, y)] > 0) return;
+        if (state.drawn[pixel_index(state.width, x, y)] > 0) return;
         if (slice.is_over() && has_begun.exchange(true)) return;
         allocate_pixel(scene, options, x, y, state, counters.local());
         progress.advance(1);

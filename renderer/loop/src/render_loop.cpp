@@ -143,7 +143,7 @@ class RenderLoop {
 
   /// Of a slice that was cut, some pixels have their samples already.
   void render_pixel(int x, int y, PixelSampler& sampler) {
-    const std::size_t pixel = state_.index(x, y);
+    const std::size_t pixel = pixel_index(state_.width, x, y);
     const std::uint32_t target = counts_.of(pixel);
     const std::uint32_t nets = state_.moments_per_pixel();
     for (std::uint32_t& drawn = state_.drawn[pixel]; drawn < target; ++drawn) {
@@ -228,15 +228,22 @@ std::uint32_t RenderState::least_drawn() const {
   return least;
 }
 
-Film RenderState::film() const { return RenderState(*this).take_film(); }
+PixelMoments RenderState::pixel(std::size_t index) const {
+  if (nets == 0) return moments[index];
+  PixelMoments of_nets;
+  for (std::size_t k = 0; k < nets; ++k) of_nets.add_replicate(moments[index * nets + k]);
+  return of_nets;
+}
+
+Film RenderState::film() const {
+  Film film(width, height);
+  for (std::size_t i = 0; i < film.pixels().size(); ++i) film.pixels()[i] = pixel(i);
+  return film;
+}
 
 Film RenderState::take_film() {
-  const std::size_t pixels = drawn.size();
-  for (std::size_t i = 0; i < pixels && nets > 0; ++i) {
-    PixelMoments of_nets;
-    for (std::size_t k = 0; k < nets; ++k) of_nets.add_replicate(moments[i * nets + k]);
-    moments[i] = of_nets;  // whose place no later pixel reads
-  }
+  const std::size_t pixels = moments.size() / moments_per_pixel();
+  for (std::size_t i = 0; i < pixels; ++i) moments[i] = pixel(i);  // no later one reads there
   moments.resize(pixels);
   return {width, height, std::move(moments)};
 }

@@ -63,7 +63,7 @@ class CheckpointSum {
     }
     range.end = range.first + output::most_drawn(state.drawn);
     range.shard = shard_of(state.drawn);
-    of_seed_.push_back(state.drawn);
+    of_seed_.push_back(std::move(state.drawn));
     parts_.push_back(part);
     add_moments(std::move(state));
   }

@@ -26,6 +26,7 @@ class SphereChart : public Chart {
     }
     return normalized(moved);
   }
+  // Near 1 squares are safe, and dearer is what length() does for others.
   double distance(const Vec3& w) const override { return std::abs(std::sqrt(dot(w, w)) - 1); }
 };
 

@@ -27,16 +27,11 @@ struct RenderState {
   /// Samples that every pixel has; without pixels, the largest number.
   std::uint32_t least_drawn() const;
 
-  /// Place of a pixel in `drawn`: row by row, from the top.
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x);
-  }
-
   std::uint32_t moments_per_pixel() const { return nets > 0 ? nets : 1; }
 
-  /// The image. The mean of a net is one sample of it: what its points share says nothing of the
+  /// Of the image. The mean of a net is one sample of it: what its points share says nothing of the
   /// error.
+  PixelMoments pixel(std::size_t index) const;
   Film film() const;
   /// The same in the memory of the moments, which are gone then.
   Film take_film();

@@ -31,6 +31,12 @@ struct PixelMoments {
   Rgbd variance() const;
 };
 
+/// Place of a pixel among all: row by row, from the top.
+inline std::size_t pixel_index(int width, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(x);
+}
+
 /// An image under construction.
 class Film {
  public:
@@ -45,11 +51,8 @@ class Film {
   std::vector<PixelMoments>& pixels() { return pixels_; }
   const std::vector<PixelMoments>& pixels() const { return pixels_; }
 
-  /// Place of a pixel in pixels(): row by row, from the top.
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(x);
-  }
+  /// Place of a pixel in pixels().
+  std::size_t index(int x, int y) const { return pixel_index(width_, x, y); }
 
   PixelMoments& at(int x, int y) { return pixels_[index(x, y)]; }
   const PixelMoments& at(int x, int y) const { return pixels_[index(x, y)]; }
